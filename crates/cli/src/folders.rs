@@ -8,7 +8,7 @@ use crate::args::{Command, InputArgs};
 use crate::message::Failure;
 use crate::{files, tiles};
 
-/// What tells of the files of Entwine Point Tiles in its folder.
+/// The file that describes Entwine Point Tiles in its folder.
 const EPT: &str = "ept.json";
 
 /// The files of points of a command that reads some.

@@ -163,9 +163,9 @@ fn table(args: &InterpolateArgs, about: &Cloud, count: usize, quiet: bool) -> Re
 
 /// The centres of all cells.
 fn centres<R: Room>(grid: &Grid, label: &Path) -> Result<Vec<R::Point>, Failure> {
-    /// Each takes some fifty bytes.
-    const MOST: f64 = 2e9;
-    if grid.cells() > MOST {
+    /// The largest number of cells: each takes some fifty bytes.
+    const MAX_CELLS: f64 = 2e9;
+    if grid.cells() > MAX_CELLS {
         let what = format!("{}: the raster would have {:e} cells", label.display(), grid.cells());
         return Err(Failure::new(what, "choose a larger --grid, or use delone dtm"));
     }

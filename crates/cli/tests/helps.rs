@@ -63,7 +63,7 @@ fn broken() -> Vec<(&'static str, Vec<u8>)> {
     files
 }
 
-/// What is said of a file: the error and the help.
+/// The error of a file, and its help.
 fn said(place: &Place, file: &str) -> (String, String) {
     let output = place.run(&format!("triangulate {file} -o out.npy"));
     let said = text(&output.stderr);

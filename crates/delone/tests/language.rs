@@ -105,18 +105,14 @@ fn sentences(page: &str) -> Vec<Vec<&str>> {
     let mut is_code = false;
     for line in page.lines() {
         let text = line.trim_start();
-        is_code ^= text.starts_with("```");
-        let is_item = ["- ", "* "].iter().any(|mark| text.starts_with(mark))
-            || text.split_once(". ").is_some_and(|(number, _)| number.parse::<u32>().is_ok());
-        if is_item
-            || is_code
-            || text.is_empty()
-            || text.starts_with(['|', '#', '`']) && text.starts_with("```")
-        {
+        let is_fence = text.starts_with("```");
+        is_code ^= is_fence;
+        let is_numbered = text.split_once(". ").is_some_and(|(number, _)| number.parse::<u32>().is_ok());
+        let is_skipped = is_code || is_fence || text.starts_with(['|', '#']);
+        if is_skipped || is_numbered || text.is_empty() || text.starts_with(['-', '*']) {
             sentences.push(Vec::new());
         }
-        if is_code || text.starts_with(['|', '#']) || text.starts_with("```") {
-            sentences.push(Vec::new());
+        if is_skipped {
             continue;
         }
         for word in text.split_whitespace() {

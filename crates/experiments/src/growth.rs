@@ -11,9 +11,10 @@ use super::{Error, Findings, Options, timed};
 
 /// Small sets are built so often that this many points are built in all.
 const POINTS: usize = 3_000_000;
-/// The fewest runs, of which the fastest counts; one of so many points is enough.
+/// The fewest runs, of which the fastest counts.
 const RUNS: usize = 3;
-const ENOUGH: usize = 20_000_000;
+/// Points, from which on one run is made.
+const SINGLE_RUN_POINTS: usize = 20_000_000;
 
 /// `delone experiment growth`: from a thousand points on, in space up to a tenth as many as in the plane.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
@@ -71,7 +72,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
 
 /// Nanoseconds a point of the fastest of some runs.
 fn fastest(n: usize, build: impl Fn() -> Result<(), delone::Error>) -> Result<f64, Error> {
-    let runs = if n < ENOUGH { (POINTS / n).clamp(RUNS, 300) } else { 1 };
+    let runs = if n < SINGLE_RUN_POINTS { (POINTS / n).clamp(RUNS, 300) } else { 1 };
     let mut least = f64::INFINITY;
     for _ in 0..runs {
         let (done, seconds) = timed(&build);

@@ -18,7 +18,7 @@ pub struct Cloud {
     pub classes: Vec<(u8, u64)>,
     /// How many points of LAS files have each flag ([`LasFlag::ALL`](crate::LasFlag::ALL)), those left out included.
     pub flags: [u64; 4],
-    /// What the extra bytes of LAS files have: names, and types in words.
+    /// The extra bytes of LAS files: names, and types in words.
     pub dimensions: Vec<(String, String)>,
     /// The attributes of the points, by the features that they are of.
     pub features: Features,

@@ -47,7 +47,7 @@ pub enum Error {
     NoDimension {
         /// The name that was given.
         name: String,
-        /// What the points have.
+        /// The names of the dimensions of the points.
         names: String,
     },
     /// The nodes of an EPT are stored in a way that is not read.
@@ -235,9 +235,10 @@ fn clipped(text: &str) -> String {
 
 /// Names that a message lists: the beginnings of the first ones, and how many more there are.
 pub(crate) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
-    const MOST: usize = 10;
-    let more = names.len().saturating_sub(MOST);
-    let first = names.take(MOST).map(excerpt).collect::<Vec<_>>().join(", ");
+    /// Names that are listed; more are counted.
+    const LISTED_NAMES: usize = 10;
+    let more = names.len().saturating_sub(LISTED_NAMES);
+    let first = names.take(LISTED_NAMES).map(excerpt).collect::<Vec<_>>().join(", ");
     if more > 0 { format!("{first} and {more} more") } else { first }
 }
 

@@ -102,7 +102,7 @@ fn a_box_is_a_filter_of_all_points() {
     }
 }
 
-/// What is kept is in the order of the file, or of the nodes, whatever the box.
+/// Kept points are in the order of the file, or of the nodes, whatever the box.
 #[test]
 fn a_box_keeps_the_order() {
     for name in TREES {
@@ -270,7 +270,7 @@ fn a_file_of_which_nothing_is_taken_says_so() {
     assert!(beyond.remarks.is_empty() && beyond.classes.is_empty());
 }
 
-/// What is said of a COPC file with other bytes at some place.
+/// The error of a COPC file with other bytes at some place.
 fn of_broken(at: usize, with: &[u8]) -> String {
     let mut bytes = std::fs::read(folder().join("small.copc.laz")).expect("a file");
     bytes[at..at + with.len()].copy_from_slice(with);
@@ -303,7 +303,7 @@ fn hierarchies_of_copc_that_contradict_themselves_are_refused() {
     says(page + 32, &bytes[page..page + 32], "two nodes of its hierarchy are one chunk");
 }
 
-/// What is said of an EPT of which one file is another text.
+/// The error of an EPT in which one file has another text.
 fn of_changed(kind: &str, name: &str, with: &str) -> String {
     let folder = folder().join(kind);
     let mut beside = beside(folder.clone());

@@ -7,9 +7,9 @@ import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
 
 /** Up to here points are changed one by one. */
-const FEW = 3000;
+const SINGLE_CHANGES = 3000;
 /** From here on edges are painted into the pixels, and points not at all. */
-const MANY = 8000;
+const PAINTED_EDGES = 8000;
 /** From here on triangles are made off the page's thread. */
 const HUGE = 200_000;
 
@@ -32,13 +32,13 @@ export function play(section, tell) {
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const scale = stage.scale;
-    const isMany = made.triangles.length / 3 > 2 * MANY;
+    const isMany = made.triangles.length / 3 > 2 * PAINTED_EDGES;
     if (of("delaunay").checked) {
       const alpha = made.triangles.length > 600_000 ? 0.35 : 0.8;
       if (isMany) paint(context, made, coords, {scale: stage.pixels, colour: colour.delaunay, alpha});
       else strokePath(context, edges(made, coords), colour.delaunay, {scale});
     }
-    const isSmall = coords.length / 2 <= MANY;
+    const isSmall = coords.length / 2 <= PAINTED_EDGES;
     if (of("voronoi").checked && d) {
       const path = new Path2D(d.voronoi([0, 0, WIDTH, stage.height]).render() ?? "");
       strokePath(context, path, colour.voronoi, {dash: [6, 4], width: 1.5, scale});
@@ -78,7 +78,7 @@ export function play(section, tell) {
       : count === 1 ? "1 point. One alone has no triangles."
       : triangles === 0 ? `${number(count)} points on a line, which have no triangles.`
       : `${number(count)} points, ${number(triangles)} triangles, ${ms.toFixed(ms < 10 ? 1 : 0)} ms${rate}.`;
-    tell(what + (coords.length / 2 > MANY && triangles ? " So many points are not drawn, their edges are." : ""));
+    tell(what + (coords.length / 2 > PAINTED_EDGES && triangles ? " So many points are not drawn, their edges are." : ""));
   }
 
   /** Triangulates all points anew. */
@@ -86,7 +86,7 @@ export function play(section, tell) {
     const start = performance.now();
     d?.dispose();
     d = undefined;
-    if (coords.length / 2 <= FEW) {
+    if (coords.length / 2 <= SINGLE_CHANGES) {
       d = new Delaunay(coords);
       made = d;
     } else {
@@ -181,7 +181,7 @@ export function play(section, tell) {
     make();
     frames.push(time);
     if (frames.length > 40) frames.shift();
-    if (count < FEW || frames.length % 10 === 0) say();
+    if (count < SINGLE_CHANGES || frames.length % 10 === 0) say();
   }
 
   /** Forgets points that are gone. */

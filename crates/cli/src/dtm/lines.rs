@@ -183,9 +183,9 @@ impl Lines {
 
 /// The places that cut a segment into equal pieces which are not longer; the same ones in both directions.
 fn between(p: [f64; 2], q: [f64; 2], longest: f64) -> Vec<[f64; 2]> {
-    /// More would be lines of another scale than the raster.
-    const MOST: f64 = 100_000.0;
-    let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MOST) as usize;
+    /// The largest number of pieces of a segment: more would mean lines of another scale than the raster.
+    const MAX_PIECES: f64 = 100_000.0;
+    let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MAX_PIECES) as usize;
     let (low, high) = if p <= q { (p, q) } else { (q, p) };
     let place = |k: usize| [0, 1].map(|axis| low[axis] + k as f64 / pieces as f64 * (high[axis] - low[axis]));
     let mut places: Vec<[f64; 2]> = (1..pieces).map(place).collect();

@@ -32,8 +32,8 @@ use clip::Clip;
 use lines::Lines;
 use surface::{Kind, Surface};
 
-/// Rasters of more cells are refused.
-const MOST: f64 = 17_179_869_184.0;
+/// The largest number of cells of a raster, 2^34. More are refused.
+const MAX_CELLS: f64 = 17_179_869_184.0;
 /// Cells for each point that are made without being asked for. Evenly spread points have one, n of them in a strip that is L times as long
 /// as wide sqrt(L / n); a few points far from the others have any number.
 const CELLS_A_POINT: f64 = 1000.0;
@@ -328,9 +328,9 @@ impl Job<'_> {
             )
         };
         let grid = self.place.grid(&area, cell).map_err(|error| refuse(error.to_string()))?;
-        if grid.cells() > MOST {
+        if grid.cells() > MAX_CELLS {
             return Err(refuse(format!(
-                "cells of {cell} would be {:e}: {} columns and {} rows; at most {MOST:e} are made",
+                "cells of {cell} would be {:e}: {} columns and {} rows; at most {MAX_CELLS:e} are made",
                 grid.cells(),
                 grid.columns(),
                 grid.rows()

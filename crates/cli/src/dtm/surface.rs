@@ -16,8 +16,8 @@ use crate::constrained::extended;
 use crate::message::{Failure, note, warn};
 use crate::stats::Stats;
 
-/// Vertices that may be added on lines, and four more for each point.
-const MANY: usize = 1000;
+/// The largest number of vertices added on lines, beside four for each point.
+const MAX_VERTICES_ON_LINES: usize = 1000;
 
 /// A triangulation with heights, and what of it is shown.
 pub(super) struct Surface<T: Triangulation> {
@@ -99,7 +99,7 @@ pub(super) fn with_lines(
     if args.method != MethodName::Linear {
         let before = c.points().len();
         // Lines that nearly lie on each other would want vertices without end.
-        let most = MANY + 4 * before;
+        let most = MAX_VERTICES_ON_LINES + 4 * before;
         let how = Refinement::new().min_angle(0.0).conforming(true).max_vertices(most);
         how.run(&mut c).map_err(failed)?;
         heights = extended(&c, 1, &heights, |_| None).0;

@@ -24,8 +24,8 @@ use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
 
-/// More triangles are not made one mesh without a box.
-const MANY: u64 = 20_000_000;
+/// The largest number of triangles that become one mesh without a box.
+const MAX_TRIANGLES_WITHOUT_BOX: u64 = 20_000_000;
 /// In a picture the triangles of a tile have one of so many colours, and those of seams another.
 const COLOURS: u32 = 7;
 
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
         outcome.nodes.iter().filter_map(Done::parse).map(|done| (done.node, done.sums)).collect();
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
     let window = window(args)?;
-    if args.box_.is_empty() && args.points.is_none() && outcome.triangles() > MANY {
+    if args.box_.is_empty() && args.points.is_none() && outcome.triangles() > MAX_TRIANGLES_WITHOUT_BOX {
         let what = format!("{} has {} triangles", args.folder.display(), grouped(outcome.triangles()));
         return Err(Failure::usage(what, "choose a part with --box, or an overview with --points"));
     }

@@ -1,4 +1,4 @@
-//! What files begin with: by that a content is told from that of other formats, where something is wrong with it.
+//! Beginnings of files: they tell the format of a content where something is wrong with it.
 
 use super::Format;
 
@@ -13,7 +13,7 @@ pub(crate) enum Fit {
     Of(Format),
 }
 
-/// What files of bytes begin with.
+/// The first bytes of files of binary formats.
 const SIGNATURES: &[(Format, &[u8])] = &[
     (Format::Las, b"LASF"),
     (Format::Npy, b"\x93NUMPY"),

@@ -7,7 +7,7 @@ use delone::{RegionSeed2, Triangulation};
 
 use super::lines::{Line, Lines};
 use super::osmosis;
-use super::triangle::{AHEAD, NodeRows, Nodes, count};
+use super::triangle::{NodeRows, Nodes, RESERVED_ROWS, count};
 use crate::{Cloud, Constraints, Error, Graph, Mesh, Rings, Source};
 
 /// Opens a file beside the one that is read, by its extension.
@@ -127,7 +127,7 @@ fn segments(
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let number = heading(&line, &words, 2, "segments")?;
     let has_markers = words.get(1).is_some_and(|&word| word != "0");
-    let mut segments = Vec::with_capacity(number.min(AHEAD));
+    let mut segments = Vec::with_capacity(number.min(RESERVED_ROWS));
     let mut markers = has_markers.then(Vec::new);
     for i in 0..number {
         let Some(line) = lines.next()? else {
@@ -151,7 +151,7 @@ fn holes(lines: &mut Lines) -> Result<Vec<[f64; 2]>, Error> {
     };
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let number = heading(&line, &words, 1, "holes")?;
-    let mut holes = Vec::with_capacity(number.min(AHEAD));
+    let mut holes = Vec::with_capacity(number.min(RESERVED_ROWS));
     for i in 0..number {
         let Some(line) = lines.next()? else {
             return Err(Error::Truncated(format!("after {i} of {number} holes")));
@@ -169,7 +169,7 @@ fn regions(lines: &mut Lines, remarks: &mut Vec<String>) -> Result<Vec<RegionSee
     let Some(line) = lines.next()? else { return Ok(Vec::new()) };
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let number = heading(&line, &words, 1, "regions")?;
-    let mut regions = Vec::with_capacity(number.min(AHEAD));
+    let mut regions = Vec::with_capacity(number.min(RESERVED_ROWS));
     let mut alone = 0;
     for i in 0..number {
         let Some(line) = lines.next()? else {
@@ -207,7 +207,7 @@ fn heading(line: &Line, words: &[&str], most: usize, what: &str) -> Result<usize
 pub(crate) fn read_areas(source: Box<dyn Source>) -> Result<Vec<Option<f64>>, Error> {
     let mut lines = Lines::of_triangle(source);
     let number = count(&mut lines, "triangles")?;
-    let mut areas = Vec::with_capacity(number.min(AHEAD));
+    let mut areas = Vec::with_capacity(number.min(RESERVED_ROWS));
     for i in 0..number {
         let Some(line) = lines.next()? else {
             return Err(Error::Truncated(format!("after {i} of {number} areas")));

@@ -9,8 +9,8 @@ use super::lines::Lines;
 use crate::middles::Middles;
 use crate::{Attributes, Cloud, Error, Graph, Mesh, Source};
 
-/// Rows there is room for before they are read: what a header claims is not believed beyond.
-pub(super) const AHEAD: usize = 1 << 16;
+/// The largest number of rows that get memory before they are read: headers may claim more.
+pub(super) const RESERVED_ROWS: usize = 1 << 16;
 
 /// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
 /// or else the first attribute gives the height.
@@ -56,7 +56,7 @@ impl Nodes {
         let has_markers = wants_all && words.next().is_some_and(|word| word != "0");
         let is_in_space = dimension == 3;
         let with_heights = is_in_space || width > 0;
-        let mut cloud = Cloud::with_capacity(count.min(AHEAD), with_heights);
+        let mut cloud = Cloud::with_capacity(count.min(RESERVED_ROWS), with_heights);
         if !is_in_space && width > 0 {
             cloud.remarks.push(format!("the first of {width} attributes was taken as height"));
         }

@@ -30,7 +30,7 @@ pub(crate) const GROUPS: usize = 8;
 const ROOM: u64 = 256 << 20;
 const ROOM_A_BYTE: u64 = 100;
 
-/// What is between the files of a seed of several.
+/// The separator between the files of a seed of several.
 pub(super) const PART: &[u8] = b"\n--\n";
 
 /// No message is longer: users read them.

@@ -1,4 +1,4 @@
-//! What `ept.json` tells.
+//! Reads `ept.json`.
 
 use std::io::Read;
 
@@ -15,7 +15,7 @@ pub(super) enum DataType {
     Zstandard,
 }
 
-/// What is told of all nodes.
+/// The description of all nodes.
 pub(super) struct About {
     pub(super) data: DataType,
     pub(super) cubes: Cubes,
@@ -27,7 +27,7 @@ pub(super) struct About {
     pub(super) crs: Option<Crs>,
 }
 
-/// What is wrong with an EPT.
+/// The error of a fault of an EPT.
 pub(super) fn wrong(what: impl std::fmt::Display) -> Error {
     Error::content(format!("EPT: {what}"))
 }

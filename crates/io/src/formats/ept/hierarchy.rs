@@ -11,7 +11,7 @@ use crate::formats::poly::Beside;
 /// Where the rest of the hierarchy is in a file of its own.
 const ELSEWHERE: i64 = -1;
 
-/// What a hierarchy has.
+/// A hierarchy.
 pub(super) struct Nodes {
     /// The nodes that may have wanted points, with how many they have, in order.
     pub(super) found: Vec<(Key, u64)>,

@@ -107,10 +107,10 @@ impl Header {
 fn size(table: Table) -> Result<(u64, u64), Error> {
     const NODE: u64 = 40;
     /// Entries of a node of the index, unless the header says otherwise.
-    const USUAL: u16 = 16;
+    const DEFAULT_NODE_SIZE: u16 = 16;
     let numbers = || Ok((table.long(header::COUNT)?, table.short(header::NODE_SIZE)?));
     let (count, node) = numbers().map_err(|what: &str| wrong(format!("the header: {what}")))?;
-    let node = u64::from(node.unwrap_or(USUAL));
+    let node = u64::from(node.unwrap_or(DEFAULT_NODE_SIZE));
     if count == 0 || node == 0 {
         return Ok((count, 0));
     }

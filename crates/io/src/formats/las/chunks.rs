@@ -21,8 +21,8 @@ const OFFSET: u64 = ChunkTable::OFFSET_SIZE as u64;
 /// Points decoded at a time: so few that they are still in the cache when their coordinates are taken.
 const BLOCK: u64 = 1 << 10;
 
-/// Bytes that are read ahead of the decoders.
-const AHEAD: u64 = 1 << 24;
+/// Bytes of chunks that are read before they are decoded, if all threads decode.
+const READ_AHEAD_BYTES: u64 = 1 << 24;
 
 /// One chunk: where it is and how many points it has.
 #[derive(Clone, Copy, PartialEq)]
@@ -198,9 +198,9 @@ fn decode_all(
     let mut rest = total;
     // Whoever takes chunks has little memory.
     let (ahead, most) = if takers.is_whole() {
-        (AHEAD, 16 * CHUNK)
+        (READ_AHEAD_BYTES, 16 * CHUNK)
     } else {
-        (AHEAD / 4, CHUNK * 4.max(rayon::current_num_threads() as u64))
+        (READ_AHEAD_BYTES / 4, CHUNK * 4.max(rayon::current_num_threads() as u64))
     };
     let mut waiting = chunks.iter().copied().filter(|chunk| chunk.points > 0).peekable();
     while rest > 0 {

@@ -1,4 +1,4 @@
-//! What a record has besides coordinates: the dimensions of its format, and those that extra bytes describe.
+//! Dimensions of records besides coordinates: those of the format, and those that extra bytes describe.
 //!
 //! Source: ASPRS LAS 1.4 R15, tables 7 to 17 (records) and 24 to 25 (extra bytes).
 

@@ -6,18 +6,18 @@ use super::dimensions::{self, Dimension};
 use super::filter::{Attributes, LasFilter};
 use crate::{Cloud, Crs, Error, Features, ReadOptions, Table};
 
-/// What is wanted of the points of a file.
+/// The wanted part of the points of a file.
 pub(crate) struct Wanted<'a> {
     pub(crate) options: &'a ReadOptions,
     pub(crate) filter: &'a LasFilter,
-    /// What is taken as the height, where it is not z.
+    /// The dimension that is taken as the height, where it is not z.
     height: Option<Dimension>,
     /// The dimensions that are attributes; none if their names alone are wanted.
     attributes: Vec<Dimension>,
 }
 
 impl<'a> Wanted<'a> {
-    /// What options say of a file with these dimensions.
+    /// The wanted part by the options, of a file with these dimensions.
     pub(crate) fn of(options: &'a ReadOptions, all: &[Dimension]) -> Result<Self, Error> {
         let height = match &options.columns[..] {
             [] => None,

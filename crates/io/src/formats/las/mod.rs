@@ -63,7 +63,7 @@ pub(crate) struct Tile {
     pub(crate) total: u64,
     record: usize,
     about: Builder,
-    /// What records have besides coordinates.
+    /// The dimensions of records besides coordinates.
     pub(crate) dimensions: Vec<Dimension>,
 }
 

@@ -3,7 +3,7 @@
 
 use crate::error::excerpt;
 use crate::formats::lines::{Line, Lines};
-use crate::formats::triangle::AHEAD;
+use crate::formats::triangle::RESERVED_ROWS;
 use crate::{Cloud, Error, Graph, Source};
 
 /// Reads the points.
@@ -162,7 +162,7 @@ impl Reader {
     fn listed_nodes(&mut self) -> Result<Nodes, Error> {
         let line = self.line("in $Nodes")?;
         let count: usize = line.number(line.text.split_whitespace().next(), "the number of nodes")?;
-        let mut nodes = Vec::with_capacity(count.min(AHEAD));
+        let mut nodes = Vec::with_capacity(count.min(RESERVED_ROWS));
         for i in 0..count {
             let line = self.line_of("nodes", i, count)?;
             let mut words = line.text.split_whitespace();
@@ -176,7 +176,7 @@ impl Reader {
     /// each, and `x y z` each.
     fn nodes_in_blocks(&mut self) -> Result<Nodes, Error> {
         let (blocks, count) = self.heading("nodes")?;
-        let mut nodes = Vec::with_capacity(count.min(AHEAD));
+        let mut nodes = Vec::with_capacity(count.min(RESERVED_ROWS));
         for _ in 0..blocks {
             let line = self.line("in $Nodes")?;
             let more: usize = line.number(line.text.split_whitespace().nth(3), "the nodes of the block")?;

@@ -216,10 +216,10 @@ impl<'a> Table<'a> {
 
     /// Keeps a remark before the first line.
     fn heed(&mut self, text: &str) {
-        /// Nobody writes names so far above.
-        const MOST: usize = 1000;
+        /// Lines of remarks that are kept for the names of columns: nobody writes them further above.
+        const MAX_LINES_ABOVE: usize = 1000;
         self.left_out += 1;
-        if self.columns.is_none() && self.above.len() < MOST {
+        if self.columns.is_none() && self.above.len() < MAX_LINES_ABOVE {
             self.above.push(text.to_owned());
         }
     }

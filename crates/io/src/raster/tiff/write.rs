@@ -21,7 +21,7 @@ use crate::raster::{Overviews, RasterInfo, Sample};
 use crate::{Error, Format};
 
 /// Bytes, above which a file is BigTIFF: offsets of a small file have 32 bits.
-const SMALL: u64 = 4_000_000_000;
+const BIG_TIFF_BYTES: u64 = 4_000_000_000;
 /// Tiles of so many bytes wait in memory.
 const IN_MEMORY: usize = 1 << 24;
 
@@ -124,7 +124,7 @@ impl<W: Write> Writer<W> {
             waiting,
             length: 0,
             at_once,
-            small: SMALL,
+            small: BIG_TIFF_BYTES,
         })
     }
 
@@ -262,7 +262,7 @@ impl Level {
 mod tests {
     use std::io::Cursor;
 
-    use super::{SMALL, Writer};
+    use super::{BIG_TIFF_BYTES, Writer};
     use crate::raster::{RasterInfo, Sample, placed, tiff::read};
 
     #[test]
@@ -271,7 +271,7 @@ mod tests {
         let values: Vec<f64> = (0..700 * 150).map(|i| f64::from(i).sqrt()).collect();
         for sample in [Sample::F64, Sample::F32, Sample::U8] {
             let info = RasterInfo { sample, ..RasterInfo::new(grid) };
-            let [small, big] = [SMALL, 0].map(|most| {
+            let [small, big] = [BIG_TIFF_BYTES, 0].map(|most| {
                 let mut writer = Writer::create(Cursor::new(Vec::new()), &info).expect("begun");
                 writer.small = most;
                 writer.write_rows(&values, 0).expect("written");
