@@ -11,7 +11,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use delone_io::Format;
 
-use crate::{closed, files};
+use crate::closed;
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -53,9 +53,9 @@ impl Failure {
         Self { message, help: error.help().into_owned(), status: if usage { 2 } else { 1 } }
     }
 
-    /// Something wrong with what is in a file of this format.
-    pub(crate) fn content(path: &Path, format: Format, error: &delone_io::Error) -> Self {
-        let help = error.help_with(format, &files::beginning(path, format));
+    /// Something wrong with what is in a file of this format that begins so.
+    pub(crate) fn content(path: &Path, format: Format, error: &delone_io::Error, beginning: &[u8]) -> Self {
+        let help = format.help(error, beginning);
         Self { help: help.into_owned(), ..Self::file(path, error) }
     }
 

@@ -81,10 +81,7 @@ fn it_is_about_the_format_of_the_file() {
         let is_compiled = format != Format::GeoPackage || cfg!(feature = "geopackage");
         // Of well-known text in one collection no extension is.
         let has_none = format == Format::WktCollection;
-        assert!(
-            has_none || !is_compiled || format.names()[0].iter().any(|name| is_there(&name)),
-            "no file of {format}"
-        );
+        assert!(has_none || !is_compiled || format.names()[0].iter().any(is_there), "no file of {format}");
     }
     for (name, content) in &files {
         if *name == "gpkg" && !cfg!(feature = "geopackage") {

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use crate::format::Fit;
 use crate::{Contents, Direction, Format};
 
 /// Why a file could not be read or written.
@@ -151,31 +150,6 @@ impl From<std::io::Error> for Error {
 impl Error {
     pub(crate) fn content(what: impl Into<String>) -> Self {
         Self::Content(what.into())
-    }
-
-    /// Advice on a fault of a file of this format. `beginning` holds the first few thousand bytes of the file, or nothing where they are
-    /// unknown.
-    pub fn help_with(&self, format: Format, beginning: &[u8]) -> Cow<'static, str> {
-        if !matches!(self, Self::Line { .. } | Self::Content(_) | Self::Truncated(_)) {
-            return self.help();
-        }
-        match (format.fit(beginning), self) {
-            (Fit::Of(found), _) => {
-                let title = found.title();
-                let what = format!("it begins as {found} files do ({title})");
-                Cow::Owned(format!("{what}: give it that extension, or name the format with --from {found}"))
-            }
-            (Fit::Not, Self::Line { .. } | Self::Content(_)) => Cow::Owned(format!(
-                "it does not begin as {format} files do: check what it is, and name its format with --from"
-            )),
-            (_, Self::Line { .. }) if format == Format::Text => {
-                Cow::Borrowed("correct that line, or choose columns with --columns")
-            }
-            (_, Self::Content(_)) => {
-                Cow::Borrowed("correct it there, or write it anew with the program that it is from")
-            }
-            _ => self.help(),
-        }
     }
 
     /// Advice to the user.

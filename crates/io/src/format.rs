@@ -8,7 +8,6 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-pub(crate) use beginning::Fit;
 pub(crate) use contents::Readers;
 pub use contents::{Contents, Direction};
 

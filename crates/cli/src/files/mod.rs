@@ -111,7 +111,7 @@ pub(crate) fn open(
     quiet: bool,
 ) -> Result<(Box<dyn Source>, Phase), Failure> {
     let (source, phase) = open_raw(path, what, quiet)?;
-    let source = decompressed(source, format).map_err(|error| Failure::content(path, format, &error))?;
+    let source = decompressed(source, format).map_err(|error| wrong(path, format, &error))?;
     Ok((source, phase))
 }
 
@@ -191,7 +191,7 @@ fn read_all(
     let formats = formats(args)?;
     let mut all = Cloud::default();
     for (path, format) in args.input.iter().zip(formats) {
-        let failed = |error| Failure::content(path, format, &error);
+        let failed = |error| wrong(path, format, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
         let mut cloud = read(source, format, &mut beside(path)).map_err(failed)?;
         heed(&mut cloud, path, Role::Input, quiet)?;
@@ -249,8 +249,7 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
 /// Reads a raster.
 pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Raster, Failure> {
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let mut raster =
-        delone_io::read_raster(source, format).map_err(|error| Failure::content(path, format, &error))?;
+    let mut raster = delone_io::read_raster(source, format).map_err(|error| wrong(path, format, &error))?;
     systems::heed(&mut raster.crs, path, Role::Input)?;
     raster.remarks.iter().for_each(|remark| note(quiet, remark));
     Ok(raster)
@@ -260,8 +259,7 @@ pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Ra
 pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let place =
-        delone_io::read_raster_place(source, format).map_err(|error| Failure::content(path, format, &error));
+    let place = delone_io::read_raster_place(source, format).map_err(|error| wrong(path, format, &error));
     let (grid, mut crs) = place?;
     systems::heed(&mut crs, path, Role::Beside)?;
     Ok((grid, crs))
@@ -297,7 +295,7 @@ fn read_graph(
     let mut all = Graph::default();
     for path in &args.input {
         let format = format(path, args.from, "--from")?;
-        let failed = |error| Failure::content(path, format, &error);
+        let failed = |error| wrong(path, format, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
         let mut open = beside(path);
         let mut beside = |extension: &str| {
@@ -313,7 +311,7 @@ fn read_graph(
     }
     if let Some(path) = segments {
         let format = format_beside(path)?;
-        let failed = |error| Failure::content(path, format, &error);
+        let failed = |error| wrong(path, format, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
         let more = delone_io::read_segments(source, format).map_err(failed)?;
         let count = all.cloud.xy.len();
@@ -334,7 +332,7 @@ fn read_graph(
 pub(crate) fn numbers(path: &Path, quiet: bool) -> Result<Vec<f64>, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    delone_io::read_numbers(source, format).map_err(|error| Failure::content(path, format, &error))
+    delone_io::read_numbers(source, format).map_err(|error| wrong(path, format, &error))
 }
 
 /// Advice where a number for each point is not found.
@@ -391,23 +389,23 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     let cloud = delone_io::read_points_beside(source, format, options, &mut beside(path));
-    let mut cloud = cloud.map_err(|error| Failure::content(path, format, &error))?;
+    let mut cloud = cloud.map_err(|error| wrong(path, format, &error))?;
     heed(&mut cloud, path, Role::Beside, quiet)?;
     Ok(cloud)
 }
 
-/// The beginning of the content of a file; nothing of what is none, or cannot be read again.
-pub(crate) fn beginning(path: &Path, format: Format) -> Vec<u8> {
+/// What is wrong with a file: its beginning tells whether it is of the format, if it can be read again.
+pub(crate) fn wrong(path: &Path, format: Format, error: &delone_io::Error) -> Failure {
     const LENGTH: u64 = 4096;
-    let mut bytes = Vec::new();
+    let mut beginning = Vec::new();
     if path.is_file()
         && let Ok(source) = apart::source(path)
         && let Ok(content) = decompressed(source, format)
     {
         // What is there before an error is the beginning.
-        _ = content.take(LENGTH).read_to_end(&mut bytes);
+        _ = content.take(LENGTH).read_to_end(&mut beginning);
     }
-    bytes
+    Failure::content(path, format, error, &beginning)
 }
 
 /// Whether a file is one of lines and polygons. Of standard input, and of pipes, the format alone tells.
@@ -423,7 +421,7 @@ pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Fail
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     let found = delone_io::read_rings_beside(source, format, &mut beside(path));
-    let mut found = found.map_err(|error| Failure::content(path, format, &error))?;
+    let mut found = found.map_err(|error| wrong(path, format, &error))?;
     found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     systems::heed(&mut found.crs, path, Role::Beside)?;
     Ok(found.rings)
@@ -454,5 +452,5 @@ pub(crate) fn simplices<T>(
     }
     let format = format(path, None, "the extension")?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    read(source, format).map_err(|error| Failure::content(path, format, &error))
+    read(source, format).map_err(|error| wrong(path, format, &error))
 }

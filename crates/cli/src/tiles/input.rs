@@ -87,7 +87,7 @@ impl<'a> Input<'a> {
             if let Some(failure) = stopped {
                 return Err(failure);
             }
-            let failed = |error| Failure::content(path, format, &error);
+            let failed = |error| files::wrong(path, format, &error);
             let mut about = found.map_err(failed)?;
             if is_told {
                 about.remarks.clear();

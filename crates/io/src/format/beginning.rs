@@ -1,10 +1,13 @@
 //! Beginnings of files: they tell the format of a content where something is wrong with it.
 
+use std::borrow::Cow;
+
 use super::Format;
+use crate::Error;
 
 /// How the beginning of a content fits a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fit {
+enum Fit {
     /// As far as can be told.
     Well,
     /// All files of the format begin in another way.
@@ -75,8 +78,40 @@ const GEOMETRIES: [&str; 11] = [
 ];
 
 impl Format {
+    /// What the user can do about an error in a file of this format whose content begins so: a few thousand bytes, or nothing where that is
+    /// not known.
+    ///
+    /// ```
+    /// use delone_io::{Error, Format};
+    ///
+    /// let error = Error::Line { line: 7, what: "\"q\" is no number".to_owned() };
+    /// assert_eq!(Format::Asc.help(&error, b"ncols 2"), "correct that line");
+    /// assert!(Format::Text.help(&error, b"ncols 2").ends_with("name the format with --from asc"));
+    /// ```
+    pub fn help(self, error: &Error, beginning: &[u8]) -> Cow<'static, str> {
+        if !matches!(error, Error::Line { .. } | Error::Content(_) | Error::Truncated(_)) {
+            return error.help();
+        }
+        match (self.fit(beginning), error) {
+            (Fit::Of(found), _) => {
+                let what = format!("it begins as {found} files do ({})", found.title());
+                Cow::Owned(format!("{what}: give it that extension, or name the format with --from {found}"))
+            }
+            (Fit::Not, Error::Line { .. } | Error::Content(_)) => Cow::Owned(format!(
+                "it does not begin as {self} files do: check what it is, and name its format with --from"
+            )),
+            (_, Error::Line { .. }) if self == Self::Text => {
+                Cow::Borrowed("correct that line, or choose columns with --columns")
+            }
+            (_, Error::Content(_)) => {
+                Cow::Borrowed("correct it there, or write it anew with the program that it is from")
+            }
+            _ => error.help(),
+        }
+    }
+
     /// How a content that begins so fits this format.
-    pub(crate) fn fit(self, beginning: &[u8]) -> Fit {
+    fn fit(self, beginning: &[u8]) -> Fit {
         let own = self.read_as();
         match of(beginning) {
             // A table may have geometries in its first column.
