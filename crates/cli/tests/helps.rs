@@ -33,6 +33,7 @@ fn broken() -> Vec<(&'static str, Vec<u8>)> {
             "geojsonl",
             "{\"type\":\"Point\",\"coordinates\":[1,2]}\n{\"type\":\"Point\",\"coordinates\":[1,]}\n",
         ),
+        ("ept", "{\"bounds\":[0,0,0,1,1,1]}"),
         ("wkt", "POINT (1 2)\nPOINT (1 q)\n"),
         ("gpx", "<gpx xmlns=\"http://www.topografix.com/GPX/1/1\"><wpt lat=\"47.5\" lon=\"q\"/></gpx>"),
         ("asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 q\n"),

@@ -394,7 +394,7 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
     Ok(cloud)
 }
 
-/// What is wrong with a file: its beginning tells whether it is of the format, if it can be read again.
+/// The failure of a file: its beginning tells whether it is of the format, if it can be read again.
 pub(crate) fn wrong(path: &Path, format: Format, error: &delone_io::Error) -> Failure {
     const LENGTH: u64 = 4096;
     let mut beginning = Vec::new();

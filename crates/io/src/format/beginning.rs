@@ -78,7 +78,7 @@ const GEOMETRIES: [&str; 11] = [
 ];
 
 impl Format {
-    /// What the user can do about an error in a file of this format whose content begins so: a few thousand bytes, or nothing where that is
+    /// Advice on an error in a file of this format. `beginning` holds its first few thousand bytes, or nothing where that is
     /// not known.
     ///
     /// ```
@@ -126,7 +126,8 @@ impl Format {
     fn read_as(self) -> Self {
         match self {
             Self::Vtp => Self::Vtu,
-            Self::GeoJsonLines => Self::GeoJson,
+            // Both are JSON.
+            Self::GeoJsonLines | Self::Ept => Self::GeoJson,
             Self::WktCollection => Self::Wkt,
             other => other,
         }

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use super::in_space;
 use super::lines::{Line, Lines};
+use crate::error::excerpt;
 use crate::{Cloud, Error, Graph, Shape, Source};
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
@@ -48,8 +49,12 @@ fn read(
 ) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
     let mut cloud = Cloud::with_capacity(0, true);
+    let mut is_first = true;
     while let Some(line) = lines.next()? {
         let mut words = line.text.split_whitespace();
+        if std::mem::take(&mut is_first) && !words.clone().next().is_none_or(is_keyword) {
+            return Err(line.error(format!("{:?} begins no line of an OBJ file", excerpt(line.text))));
+        }
         match words.next() {
             Some("v") => {
                 let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
@@ -60,6 +65,14 @@ fn read(
         }
     }
     Ok(cloud)
+}
+
+/// Whether a word begins lines of OBJ files: all keywords are short, of small letters, and some have a digit.
+fn is_keyword(word: &str) -> bool {
+    const LONGEST: usize = 16;
+    word.len() <= LONGEST
+        && word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+        && word.starts_with(|c: char| c.is_ascii_lowercase())
 }
 
 /// Reads triangles; texture and normal indices (`a/b/c`) are dropped, negative ones count back from the last
@@ -107,4 +120,20 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     points.iter().map(in_space).try_for_each(|[x, y, z]| writeln!(out, "v {x:?} {y:?} {z:?}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read_points;
+
+    #[test]
+    fn another_content_is_told() {
+        let read = |text: &'static str| read_points(Box::new(std::io::Cursor::new(text)));
+        for text in ["x,y,z\n1,2,3\n", "1 2 3\n", "OFF\n1 0 0\n", "{}\n"] {
+            let error = read(text).expect_err(text).to_string();
+            assert!(error.contains("line 1") && error.contains("no line of an OBJ file"), "{error}");
+        }
+        assert_eq!(read("# nothing\n\nmtllib a.mtl\n").expect("no points").xy.len(), 0);
+        assert_eq!(read("").expect("no points").xy.len(), 0);
+    }
 }
