@@ -70,7 +70,7 @@ def main():
     for size in sizes:
         random = np.random.default_rng(size)
         points = random.random((size, 2 if args.plane else 3))
-        # Half of the distance between neighbours, squared.
+        # Half of the distance between neighbors, squared.
         weights = random.random(size) * 0.25 * size ** (-2 / points.shape[1]) if args.weighted else None
         times, build = {}, []
         for _ in range(args.runs):

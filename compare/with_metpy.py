@@ -1,4 +1,4 @@
-"""Natural neighbours beside MetPy, linear interpolation beside SciPy: alternating, the medians count.
+"""Natural neighbors beside MetPy, linear interpolation beside SciPy: alternating, the medians count.
 
 Values are compared too: largest difference where both have one, and how many have one in one alone. Without MetPy only
 SciPy is measured. Needs: pip install ./bindings/python scipy metpy.

@@ -33,8 +33,8 @@ def read() -> np.ndarray:
     return np.column_stack([np.asarray(axis)[ground] for axis in (las.x, las.y, las.z)])
 
 
-def centres(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Centres of the cells that delone makes."""
+def centers(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centers of the cells that delone makes."""
     low, high = np.floor(points[:, :2].min(0) / cell), np.ceil(points[:, :2].max(0) / cell)
     xs = (np.arange(low[0], high[0]) + 0.5) * cell
     ys = (np.arange(high[1] - 1, low[1] - 1, -1) + 0.5) * cell
@@ -52,7 +52,7 @@ def of_delone(method: str) -> np.ndarray:
 def of_scipy() -> np.ndarray:
     """The whole way by SciPy."""
     points = read()
-    xs, ys = centres(points)
+    xs, ys = centers(points)
     return LinearNDInterpolator(points[:, :2], points[:, 2])(*np.meshgrid(xs, ys))
 
 
@@ -61,7 +61,7 @@ def of_startin(method: str) -> np.ndarray:
     import startinpy
 
     points = read()
-    xs, ys = centres(points)
+    xs, ys = centers(points)
     dt = startinpy.DT()
     dt.insert(points)
     asked = np.column_stack([axis.ravel() for axis in np.meshgrid(xs, ys)])

@@ -78,9 +78,9 @@ if command -v valgrind > /dev/null; then
     echo 'points,"hints, random order","hints, spatial order",spatial sort,divide and conquer' > "$table"
     for n in $sizes; do
         echo "== cache misses at $n"
-        $delone -q generate disks -n "$n" --seed 1 -o "$work/centres.npy"
+        $delone -q generate disks -n "$n" --seed 1 -o "$work/centers.npy"
         $delone -q generate disks -n "$n" --seed 1 --noise 1 -o "$work/instance.npy"
-        echo "$n,$(misses --hints "$work/centres.npy" --hint-order random),$(misses --hints "$work/centres.npy"),$(misses --algorithm incremental),$(misses)" >> "$table"
+        echo "$n,$(misses --hints "$work/centers.npy" --hint-order random),$(misses --hints "$work/centers.npy"),$(misses --algorithm incremental),$(misses)" >> "$table"
     done
 else
     echo "== cache misses: skipped, there is no valgrind"

@@ -54,7 +54,7 @@ def planar():
         "hexagons of tenths": 0.1 * hexagons,
         "circle of 100": ring(100),
         "circle beside the origin": ring(90, 2.5, (100.3, 250.7)),
-        "circles around one centre": levels,
+        "circles around one center": levels,
         "pipes of 25 sides": pipes(4, 25, 0.25),
         "pipes of 12 sides at UTM": pipes(4, 12, 0.25) + UTM,
         "survey to two decimals": np.round(100 * uniform, 2) + np.round(UTM, 2),

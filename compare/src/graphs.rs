@@ -9,7 +9,7 @@ use delone_generators::Kind;
 const GRAPHS: [(&str, Graph); 5] = [
     ("Gabriel", Graph::Gabriel),
     ("spanning tree", Graph::SpanningTree),
-    ("relative neighbours", Graph::RelativeNeighbors),
+    ("relative neighbors", Graph::RelativeNeighbors),
     ("beta 1.5", Graph::Beta(1.5)),
     ("6 nearest", Graph::Nearest(6)),
 ];

@@ -20,7 +20,7 @@ pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
     let mut line = format!("  {:12} {size:>10}", kind.name());
     let is_plane = |values: &[f64], grid: &Grid| {
         values.iter().enumerate().filter(|cell| !cell.1.is_nan()).all(|(k, z)| {
-            let expected = plane(grid.centre(k % grid.columns(), k / grid.columns()));
+            let expected = plane(grid.center(k % grid.columns(), k / grid.columns()));
             (z - expected).abs() <= 1e-9 * scale
         })
     };

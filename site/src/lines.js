@@ -27,8 +27,8 @@ export function edgePainter() {
     }
   }
 
-  /** Draws with so many pixels a unit of the coordinates, in a colour "#rrggbb". */
-  return (context, {triangles, halfedges}, coords, {scale, colour, alpha = 1}) => {
+  /** Draws with so many pixels a unit of the coordinates, in a color "#rrggbb". */
+  return (context, {triangles, halfedges}, coords, {scale, color, alpha = 1}) => {
     const {width, height} = context.canvas;
     if (image?.width !== width || image.height !== height) {
       image = context.createImageData(width, height);
@@ -51,7 +51,7 @@ export function edgePainter() {
       else cover(y1, x1, y0, x0, height, width, width, 1);
     }
     // The bytes of each shade, whichever their order in a word.
-    const part = (k) => parseInt(colour.slice(1 + 2 * k, 3 + 2 * k), 16);
+    const part = (k) => parseInt(color.slice(1 + 2 * k, 3 + 2 * k), 16);
     const bytes = Uint8Array.from({length: 1024}, (_, i) => (i < 4 ? 0 : i % 4 === 3 ? (i >> 2) * alpha : part(i % 4)));
     const shades = new Uint32Array(bytes.buffer);
     for (let i = 0; i < covered.length; i++) pixels[i] = shades[covered[i]];

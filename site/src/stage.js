@@ -6,8 +6,8 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 /** How wide the world is. */
 export const WIDTH = 960;
 
-/** Colours by name, as the style sheet has them. */
-export function colours() {
+/** Colors by name, as the style sheet has them. */
+export function colors() {
   const style = getComputedStyle(document.documentElement);
   const of = (name) => style.getPropertyValue(`--${name}`).trim();
   return Object.fromEntries(["delaunay", "voronoi", "hull", "chosen", "ink", "paper", "fill"].map((name) => [name, of(name)]));
@@ -20,7 +20,7 @@ export class Stage {
   #visible = false;
   #tick;
 
-  /** `draw(context, colours)` is called with the world's units. */
+  /** `draw(context, colors)` is called with the world's units. */
   constructor(canvas, draw) {
     this.canvas = canvas;
     this.draw = draw;
@@ -60,7 +60,7 @@ export class Stage {
       // Lines are as wide on a telephone as on a desk.
       context.lineWidth = 1 / this.scale;
       context.lineJoin = "round";
-      this.draw(context, colours());
+      this.draw(context, colors());
       /** Milliseconds of the last frame that the page itself took, without what the browser does with it. */
       this.cost = performance.now() - start;
       if (this.#tick) this.invalidate();
@@ -90,8 +90,8 @@ export class Stage {
 }
 
 /** A path of segments. */
-export function strokePath(context, path, colour, {width = 1, dash = [], scale = 1} = {}) {
-  context.strokeStyle = colour;
+export function strokePath(context, path, color, {width = 1, dash = [], scale = 1} = {}) {
+  context.strokeStyle = color;
   context.lineWidth = width / scale;
   context.setLineDash(dash.map((x) => x / scale));
   context.stroke(path);
@@ -111,8 +111,8 @@ export function edges({triangles, halfedges}, coords) {
   return path;
 }
 
-export function dots(context, coords, colour, radius, skip = () => false) {
-  context.fillStyle = colour;
+export function dots(context, coords, color, radius, skip = () => false) {
+  context.fillStyle = color;
   context.beginPath();
   for (let i = 0; i < coords.length / 2; i++) {
     if (skip(i)) continue;
@@ -122,10 +122,10 @@ export function dots(context, coords, colour, radius, skip = () => false) {
   context.fill();
 }
 
-export function ring(context, points, colour, width, scale) {
+export function ring(context, points, color, width, scale) {
   if (!points.length) return;
   const path = new Path2D();
   points.forEach(([x, y], i) => (i ? path.lineTo(x, y) : path.moveTo(x, y)));
   path.closePath();
-  strokePath(context, path, colour, {width, scale});
+  strokePath(context, path, color, {width, scale});
 }

@@ -73,12 +73,12 @@ rings = [
 ]
 points, starts = np.concatenate(rings), np.cumsum([0, *map(len, rings)])
 segments = np.concatenate([np.column_stack([k := np.arange(a, b), np.roll(k, -1)]) for a, b in pairwise(starts)])
-centres = np.array([np.mean(r, axis=0) for r in rings[1:]])
+centers = np.array([np.mean(r, axis=0) for r in rings[1:]])
 
 
 def wanted(x, y):
     """Edges are short near bores."""
-    return 0.08 + 0.12 * np.hypot(*(centres - (x, y)).T).min()
+    return 0.08 + 0.12 * np.hypot(*(centers - (x, y)).T).min()
 
 
 plate = delone.mesh(points, segments, min_angle=30, size=wanted, smooth=3)

@@ -35,7 +35,7 @@ x, y = (np.linspace(low, high, 600) for low, high in zip(tri.min_bound, tri.max_
 grid = surface(*np.meshgrid(x, y))
 print(f"{np.isfinite(grid).mean():.0%} of the grid is inside of the hull")
 
-# %% Points that stick out are taken away: their neighbours tell
+# %% Points that stick out are taken away: their neighbors tell
 starts, around = tri.vertex_neighbor_vertices
 of = np.repeat(np.arange(len(points)), np.diff(starts))
 usual = np.full(len(points), np.nan)

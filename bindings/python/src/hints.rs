@@ -26,12 +26,12 @@ type Point<H> = <<H as Imprecise>::Triangulation as delone::Triangulation>::Poin
 
 fn preprocess<H: Imprecise + 'static>(
     py: Python<'_>,
-    centres: &PyReadonlyArray2<'_, f64>,
+    centers: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Shared<H>> {
-    let centres: Vec<Point<H>> = coordinates(centres)?;
-    HINTS.check(Point::<H>::COUNT, centres.len())?;
-    let hints = interruptible(py, size_of_points(Point::<H>::COUNT, 0, centres.len()), move || {
-        H::from_centres(&centres, HintOrder::default())
+    let centers: Vec<Point<H>> = coordinates(centers)?;
+    HINTS.check(Point::<H>::COUNT, centers.len())?;
+    let hints = interruptible(py, size_of_points(Point::<H>::COUNT, 0, centers.len()), move || {
+        H::from_centers(&centers, HintOrder::default())
     })?;
     hints.map(Shared::new).map_err(python_error)
 }
@@ -39,10 +39,10 @@ fn preprocess<H: Imprecise + 'static>(
 #[pymethods]
 impl Hints {
     #[new]
-    fn new(py: Python<'_>, centres: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        Ok(Self(match centres.shape()[1] {
-            2 => Either::Plane(preprocess(py, &centres)?),
-            3 => Either::Space(preprocess(py, &centres)?),
+    fn new(py: Python<'_>, centers: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        Ok(Self(match centers.shape()[1] {
+            2 => Either::Plane(preprocess(py, &centers)?),
+            3 => Either::Space(preprocess(py, &centers)?),
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
         }))
     }

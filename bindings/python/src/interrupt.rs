@@ -19,7 +19,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// The size of work that is long whatever it is about.
 pub const LONG: usize = usize::MAX;
 
-/// Queries of the first piece, and as many as are answered without a thread: the slowest, of a thousand neighbours each, take 0.1 ms.
+/// Queries of the first piece, and as many as are answered without a thread: the slowest, of a thousand neighbors each, take 0.1 ms.
 const FIRST: usize = 1 << 10;
 
 /// Whether somebody still waits for work.

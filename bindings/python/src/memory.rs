@@ -41,7 +41,7 @@ pub fn room_for_neighbors<T>(queries: usize, k: usize) -> PyResult<Vec<T>> {
     let mut room = Vec::new();
     let size = queries.checked_mul(k);
     if size.is_none_or(|size| room.try_reserve_exact(size).is_err()) {
-        return Err(PyMemoryError::new_err(format!("{queries} times {k} neighbours")));
+        return Err(PyMemoryError::new_err(format!("{queries} times {k} neighbors")));
     }
     Ok(room)
 }

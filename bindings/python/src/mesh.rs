@@ -142,7 +142,7 @@ impl Mesh {
         table(py, 2, self.of(py, |this| this.made.points().as_flattened().to_vec())?)
     }
 
-    /// The corners and neighbours of the triangles inside.
+    /// The corners and neighbors of the triangles inside.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Table<'py, i64>)> {
         let (corners, neighbors) = self.of(py, |this| {
             let c = &this.made;

@@ -27,7 +27,7 @@ pub struct Neighbors {
     points: OnceLock<Arc<[f64]>>,
 }
 
-/// Arrays of the answers to queries, of at most `k` neighbours each, for either dimension.
+/// Arrays of the answers to queries, of at most `k` neighbors each, for either dimension.
 macro_rules! answers {
     ($self:ident, $py:ident, $queries:ident, $each:expr, $tree:ident, $q:ident => $answer:expr, $make:expr) => {
         match &$self.tree {

@@ -32,11 +32,11 @@ struct Arrays {
     on: Vec<i32>,
     inside: Vec<i32>,
     around: Vec<i32>,
-    centres: Vec<f64>,
+    centers: Vec<f64>,
 }
 
 /// The sites of regions; whether these are bounded; the sites on circles, those inside with -1 where there is one less, the
-/// regions around; and centres.
+/// regions around; and centers.
 type Diagram<'py> =
     (Rows<'py>, Bound<'py, PyArray1<bool>>, Rows<'py>, Rows<'py>, Rows<'py>, Bound<'py, PyArray2<f64>>);
 
@@ -62,7 +62,7 @@ impl Orders {
             Ok::<_, Error>((d, arrays))
         })?;
         let (d, arrays) = made.map_err(python_error)?;
-        let Arrays { sites, bounded, on, inside, around, centres } = arrays;
+        let Arrays { sites, bounded, on, inside, around, centers } = arrays;
         let (regions, circles) = (bounded.len(), on.len() / 3);
         let diagram = (
             PyArray1::from_slice(py, &sites).reshape([regions, order])?,
@@ -70,7 +70,7 @@ impl Orders {
             PyArray1::from_vec(py, on).reshape([circles, 3])?,
             PyArray1::from_vec(py, inside).reshape([circles, order - 1])?,
             PyArray1::from_vec(py, around).reshape([circles, 3])?,
-            PyArray1::from_vec(py, centres).reshape([circles, 2])?,
+            PyArray1::from_vec(py, centers).reshape([circles, 2])?,
         );
         Ok((Self(Shared::new(State::of(d, Regions { order, sites }))), diagram))
     }
@@ -185,7 +185,7 @@ impl Arrays {
             on: Vec::new(),
             inside: Vec::new(),
             around: Vec::new(),
-            centres: Vec::new(),
+            centers: Vec::new(),
         };
         for region in order.regions() {
             arrays.sites.extend(indices(region.sites().iter().copied()));
@@ -195,7 +195,7 @@ impl Arrays {
             arrays.inside.extend(indices(circle.inside()));
             arrays.inside.resize(i * (k - 1), -1);
             arrays.around.extend(circle.regions().map(|region| region.index() as i32));
-            arrays.centres.extend(circle.centre().unwrap_or([f64::INFINITY; 2]));
+            arrays.centers.extend(circle.center().unwrap_or([f64::INFINITY; 2]));
         }
         arrays
     }

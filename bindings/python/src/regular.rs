@@ -70,7 +70,7 @@ impl Regular {
         either!(&self.0, held => Ok(held.read(py)?.record.clone_ref(py)))
     }
 
-    /// Corners and neighbours of the finite simplices.
+    /// Corners and neighbors of the finite simplices.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
         either!(&self.0, held => held.read(py)?.arrays(py))
     }

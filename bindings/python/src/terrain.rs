@@ -26,7 +26,7 @@ pub enum Sheet<'py> {
 
 type Column<'py, T> = Bound<'py, PyArray1<T>>;
 type Points<'py> = Bound<'py, PyArray2<f64>>;
-/// Values row by row; the centres of columns and of rows; the corner of the first cell and the steps.
+/// Values row by row; the centers of columns and of rows; the corner of the first cell and the steps.
 type Painted<'py> = (Points<'py>, Column<'py, f64>, Column<'py, f64>, [f64; 2], [f64; 2]);
 /// Levels, points of all lines, where each line begins and the last one ends, and whether they are closed.
 type Lines<'py> = (Column<'py, f64>, Points<'py>, Column<'py, i64>, Column<'py, bool>);

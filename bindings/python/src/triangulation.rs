@@ -14,7 +14,7 @@ use crate::pool::{SERIAL_ITEMS, shared};
 use crate::shared::Shared;
 use crate::state::{Rows, State, table};
 
-/// Simplices whose centres one task finds.
+/// Simplices whose centers one task finds.
 const CENTRES: usize = SERIAL_ITEMS / 2;
 
 /// The points given, as Python has them: a change of the triangulation and of this is one, however its caller fares.
@@ -104,37 +104,37 @@ impl Triangulation {
         either!(&self.core, held => Ok(held.read(py)?.version()))
     }
 
-    /// Corners and neighbours of the finite simplices.
+    /// Corners and neighbors of the finite simplices.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
         either!(&self.core, held => held.read(py)?.arrays(py))
     }
 
-    /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
-    fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    /// The circumcenters of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
+    fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         fn rows<I: Sync, const D: usize>(
             simplices: Vec<I>,
-            centre: impl Fn(&I) -> Option<[f64; D]> + Sync + Send,
+            center: impl Fn(&I) -> Option<[f64; D]> + Sync + Send,
         ) -> Vec<f64> {
-            let centre = |simplex: &I| Ok::<_, Infallible>(centre(simplex).unwrap_or([f64::INFINITY; D]));
-            let Ok(centres) = shared(&simplices, CENTRES, centre);
-            centres.into_flattened()
+            let center = |simplex: &I| Ok::<_, Infallible>(center(simplex).unwrap_or([f64::INFINITY; D]));
+            let Ok(centers) = shared(&simplices, CENTRES, center);
+            centers.into_flattened()
         }
         match &self.core {
             Core::Plane(held) => {
                 let state = held.read(py)?;
-                let centres = interruptible(py, state.triangulation.slot_count(), move || {
+                let centers = interruptible(py, state.triangulation.slot_count(), move || {
                     let d = &state.triangulation;
-                    rows(d.mesh().triangles().collect(), |&t| d.circumcentre(t))
+                    rows(d.mesh().triangles().collect(), |&t| d.circumcenter(t))
                 })?;
-                table(py, 2, centres)
+                table(py, 2, centers)
             }
             Core::Space(held) => {
                 let state = held.read(py)?;
-                let centres = interruptible(py, state.triangulation.slot_count(), move || {
+                let centers = interruptible(py, state.triangulation.slot_count(), move || {
                     let d = &state.triangulation;
-                    rows(d.tetrahedron_ids().collect(), |&t| d.circumcentre(t))
+                    rows(d.tetrahedron_ids().collect(), |&t| d.circumcenter(t))
                 })?;
-                table(py, 3, centres)
+                table(py, 3, centers)
             }
         }
     }

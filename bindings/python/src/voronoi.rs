@@ -1,7 +1,7 @@
 //! Voronoi cells clipped to a region of the plane, vertices that are merged, triangles of furthest sites.
 
 use delone::{Coordinates, Region2, VertexId};
-use delone_predicates::circumcentre;
+use delone_predicates::circumcenter;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -81,22 +81,22 @@ fn merged_places<P: Coordinates + Send + 'static>(
     merged.map_err(python_error)
 }
 
-/// Triangles, and the circumcentre of each.
+/// Triangles, and the circumcenter of each.
 type Triangles<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>);
 
-/// The triangles of furthest sites, counter-clockwise, and the circumcentre of each, the nearest number to the exact one.
+/// The triangles of furthest sites, counter-clockwise, and the circumcenter of each, the nearest number to the exact one.
 #[pyfunction]
 pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) -> PyResult<Triangles<'py>> {
     let Core::Plane(held) = &triangulation.core else {
         return Err(PyValueError::new_err("furthest sites are for the plane"));
     };
-    let (corners, centres) = held.read(py)?.make(py, |state| {
+    let (corners, centers) = held.read(py)?.make(py, |state| {
         let d = &state.triangulation;
         let triangles: Vec<[VertexId; 3]> = d.furthest().triangles().collect();
         let corners: Vec<i32> = triangles.iter().flatten().map(|v| v.index() as i32).collect();
-        let centre = |[a, b, c]: [[f64; 2]; 3]| circumcentre(a, b, c).unwrap_or([f64::INFINITY; 2]);
-        let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| d.point(v))));
-        (corners, centres.collect::<Vec<f64>>())
+        let center = |[a, b, c]: [[f64; 2]; 3]| circumcenter(a, b, c).unwrap_or([f64::INFINITY; 2]);
+        let centers = triangles.iter().flat_map(|triangle| center(triangle.map(|v| d.point(v))));
+        (corners, centers.collect::<Vec<f64>>())
     })?;
-    Ok((table(py, 3, corners)?, table(py, 2, centres)?))
+    Ok((table(py, 3, corners)?, table(py, 2, centers)?))
 }

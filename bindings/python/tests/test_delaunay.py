@@ -1,4 +1,4 @@
-"""Behaviour that users of scipy.spatial.Delaunay rely on, beside SciPy itself."""
+"""Behavior that users of scipy.spatial.Delaunay rely on, beside SciPy itself."""
 
 import copy
 import pickle
@@ -151,9 +151,9 @@ def test_planes_of_lifted_simplices(ndim):
     assert (above[found >= 0].argmax(axis=-1) == found[found >= 0]).all()
     corners = tri.points[tri.simplices]
     sides = corners[:, 1:] - corners[:, :1]
-    centres = corners[:, 0] + np.linalg.solve(2 * sides, (sides**2).sum(axis=2)[..., None])[..., 0]
-    radii = np.linalg.norm(centres - corners[:, 0], axis=1)
-    inside = np.linalg.norm(queries[:, None] - centres, axis=2) < radii
+    centers = corners[:, 0] + np.linalg.solve(2 * sides, (sides**2).sum(axis=2)[..., None])[..., 0]
+    radii = np.linalg.norm(centers - corners[:, 0], axis=1)
+    inside = np.linalg.norm(queries[:, None] - centers, axis=2) < radii
     assert ((distances > 0) == inside).all()
     assert np.allclose(np.linalg.norm(tri.equations[:, :-1], axis=1), 1.0)
     assert tri.lift_points(queries).shape == (50, ndim + 1)
@@ -333,13 +333,13 @@ def test_nearest_as_a_tree(ndim):
 
 @pytest.mark.parametrize("ndim", [2, 3])
 def test_hints(ndim):
-    centres = random_points(300, ndim)
-    hints = delone.Hints(centres)
+    centers = random_points(300, ndim)
+    hints = delone.Hints(centers)
     for seed in range(3):
-        points = centres + 0.01 * random_points(300, ndim, seed)
+        points = centers + 0.01 * random_points(300, ndim, seed)
         assert as_set(hints.triangulate(points).simplices) == as_set(delone.Delaunay(points).simplices)
-    with pytest.raises(ValueError, match="299 points for 300 centres"):
-        hints.triangulate(centres[1:])
+    with pytest.raises(ValueError, match="299 points for 300 centers"):
+        hints.triangulate(centers[1:])
 
 
 def test_threads_do_not_show(monkeypatch):

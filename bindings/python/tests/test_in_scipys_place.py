@@ -369,8 +369,8 @@ def test_options_that_only_qhull_has_are_left_to_it():
 
 def test_furthest_sites_in_space_are_scipys():
     points = RANDOM.normal(size=(50, 3))
-    centres = spatial.Voronoi(points, furthest_site=True).vertices
-    radii = np.linalg.norm(centres[:, None] - points[None], axis=2).max(axis=1)
+    centers = spatial.Voronoi(points, furthest_site=True).vertices
+    radii = np.linalg.norm(centers[:, None] - points[None], axis=2).max(axis=1)
     assert np.isfinite(radii.min())
     assert isinstance(spatial.Voronoi(points[:, :2], furthest_site=True), delone.Voronoi)
 

@@ -95,7 +95,7 @@ def test_facets_as_scipy(ndim):
     ours, theirs = delone.ConvexHull(points), scipy.spatial.ConvexHull(points)
 
     def across(hull):
-        """For each facet and corner of it, by points, the facet that is a neighbour there."""
+        """For each facet and corner of it, by points, the facet that is a neighbor there."""
         facets = [tuple(sorted(row)) for row in hull.simplices.tolist()]
         rows = zip(hull.simplices.tolist(), hull.neighbors.tolist(), strict=True)
         return {(facets[k], corner): facets[n] for k, row in enumerate(rows) for corner, n in zip(*row, strict=True)}
@@ -307,14 +307,14 @@ def test_regions_of_rounded_rings_end():
     """Vertices of equal bits are one, so that a ring may come to a vertex twice: it is the star of its point, and no longer."""
     for n in range(3, 60):
         turns = np.arange(n) / n * 2 * np.pi
-        for centre in ((0.0, 0.0), (1.0, 0.0), (500000.0, 5200000.0)):
-            points = np.stack([np.cos(turns), np.sin(turns)], axis=1) + centre
+        for center in ((0.0, 0.0), (1.0, 0.0), (500000.0, 5200000.0)):
+            points = np.stack([np.cos(turns), np.sin(turns)], axis=1) + center
             for furthest in (False, True):
                 voronoi = delone.Voronoi(points, furthest_site=furthest)
                 degrees = np.bincount(voronoi.triangulation.simplices.ravel(), minlength=n)
                 for p, degree in enumerate(degrees):
                     region = voronoi.regions[voronoi.point_region[p]] if degree else []
-                    assert len(region) <= degree + 1, (n, centre, furthest)
+                    assert len(region) <= degree + 1, (n, center, furthest)
                     assert all(a != b for a, b in pairwise(region))
 
 

@@ -9,8 +9,8 @@ import pytest
 #: Lattices by their vectors, and the faces of the cell of a point: the Brillouin zones of the reciprocal ones.
 LATTICES = {
     "simple cubic": (np.eye(3), 6),
-    "face-centred cubic": (np.array([[0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2, 12),
-    "body-centred cubic": (np.array([[-1, 1, 1], [1, -1, 1], [1, 1, -1]]) / 2, 14),
+    "face-centered cubic": (np.array([[0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2, 12),
+    "body-centered cubic": (np.array([[-1, 1, 1], [1, -1, 1], [1, 1, -1]]) / 2, 14),
     "hexagonal": (np.array([[1, 0, 0], [-0.5, 3**0.5 / 2, 0], [0, 0, 1.633]]), 8),
 }
 

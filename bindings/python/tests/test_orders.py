@@ -46,19 +46,19 @@ def test_circles_are_as_defined(k):
         (ax, ay), (bx, by), (cx, cy) = points[list(on)]
         d = 2 * (ax * (by - cy) + bx * (cy - ay) + cx * (ay - by))
         squares = [ax**2 + ay**2, bx**2 + by**2, cx**2 + cy**2]
-        centre = np.array([np.dot(squares, [by - cy, cy - ay, ay - by]), np.dot(squares, [cx - bx, ax - cx, bx - ax])]) / d
-        is_nearer = ((points - centre) ** 2).sum(axis=1) < ((points[on[0]] - centre) ** 2).sum()
+        center = np.array([np.dot(squares, [by - cy, cy - ay, ay - by]), np.dot(squares, [cx - bx, ax - cx, bx - ax])]) / d
+        is_nearer = ((points - center) ** 2).sum(axis=1) < ((points[on[0]] - center) ** 2).sum()
         is_nearer[list(on)] = False
         if is_nearer.sum() in (k - 1, k - 2):
-            expected[on] = (np.flatnonzero(is_nearer).tolist(), centre)
+            expected[on] = (np.flatnonzero(is_nearer).tolist(), center)
     assert sorted(map(tuple, np.sort(diagram.circles, axis=1).tolist())) == sorted(expected)
     regions = diagram.regions.tolist()
     for on, inside, around, vertex in zip(
         diagram.circles.tolist(), diagram.inside.tolist(), diagram.circle_regions.tolist(), diagram.vertices, strict=True
     ):
-        within, centre = expected[tuple(sorted(on))]
+        within, center = expected[tuple(sorted(on))]
         assert inside == within + [-1] * (k - 1 - len(within))
-        assert np.allclose(vertex, centre)
+        assert np.allclose(vertex, center)
         more = [[v] for v in on] if len(within) == k - 1 else [[v for v in on if v != other] for other in on]
         assert sorted(regions[r] for r in around) == sorted(sorted(within + added) for added in more)
 

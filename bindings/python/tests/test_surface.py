@@ -21,7 +21,7 @@ def plane(x):
 
 @pytest.mark.parametrize("ndim", [2, 3])
 @pytest.mark.parametrize("method", METHODS)
-def test_natural_neighbours_have_planes_and_values(ndim, method):
+def test_natural_neighbors_have_planes_and_values(ndim, method):
     points, queries = random_points(300, ndim), random_points(1000, ndim, 1) * 1.2 - 0.1
     f = delone.NaturalNeighborInterpolator(points, plane(points), method)
     linear = scipy.interpolate.LinearNDInterpolator(points, plane(points))
@@ -104,7 +104,7 @@ def test_linear_beside_griddata_and_regular_grids():
     theirs = scipy.interpolate.griddata(points, values, queries, method="linear")
     assert np.allclose(delone.LinearNDInterpolator(points, values)(queries), theirs, equal_nan=True, atol=1e-12)
     assert delone.LinearInterpolator is delone.LinearNDInterpolator
-    # On a lattice natural neighbours are near what is bilinear for a function that is.
+    # On a lattice natural neighbors are near what is bilinear for a function that is.
     axis = np.arange(12.0)
     x, y = (side.ravel() for side in np.meshgrid(axis, axis, indexing="ij"))
     f = delone.NaturalNeighborInterpolator(np.stack([x, y], axis=1), x * y)

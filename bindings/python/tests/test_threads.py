@@ -81,7 +81,7 @@ LONG = {
     "find_simplex": lambda p, n: delone.Delaunay(p).find_simplex(again(p, 40 * n)),
     "k_nearest": lambda p, n: delone.Delaunay(p).k_nearest(again(p, n // 8), 300),
     "neighbors": lambda p, n: delone.Neighbors(p).k_nearest(again(p, n), 300),
-    "natural neighbours": lambda p, n: delone.NaturalNeighborInterpolator(p, p[:, 0])(again(p, 4 * n)),
+    "natural neighbors": lambda p, n: delone.NaturalNeighborInterpolator(p, p[:, 0])(again(p, 4 * n)),
     "smooth": lambda p, n: delone.NaturalNeighborInterpolator(p, p[:, 0], method="smooth")(again(p, 2 * n)),
 }
 

@@ -231,18 +231,18 @@ def test_the_others():
     assert triangles.shape[1] == 3 and triangles.dtype == np.int32
     hull = delone.triangle.convex_hull(points)
     assert {tuple(sorted(e)) for e in hull.tolist()} == border_of(triangles)
-    centres, edges, origins, directions = delone.triangle.voronoi(points)
-    assert len(centres) == len(triangles) and len(origins) == len(directions) == len(hull)
-    for row, centre in enumerate(centres):
-        radii = np.linalg.norm(points[triangles[row]] - centre, axis=1)
-        assert np.allclose(radii, radii[0]) and (np.linalg.norm(points - centre, axis=1) >= radii[0] - 1e-9).all()
+    centers, edges, origins, directions = delone.triangle.voronoi(points)
+    assert len(centers) == len(triangles) and len(origins) == len(directions) == len(hull)
+    for row, center in enumerate(centers):
+        radii = np.linalg.norm(points[triangles[row]] - center, axis=1)
+        assert np.allclose(radii, radii[0]) and (np.linalg.norm(points - center, axis=1) >= radii[0] - 1e-9).all()
     assert len(edges) == len(edges_of(triangles)) - len(hull)
     outward = points[triangles[origins]].mean(axis=1) - points.mean(axis=0)
     assert ((outward * directions).sum(axis=1) > 0).mean() > 0.9
     pytest.importorskip("triangle")
     code = "import pickle, sys, triangle; sys.stdout.buffer.write(pickle.dumps(triangle.voronoi(pickle.load(sys.stdin.buffer))))"
     done = subprocess.run([sys.executable, "-c", code], input=pickle.dumps(points), capture_output=True, check=True)
-    for ours, theirs in zip((centres, directions), (pickle.loads(done.stdout)[k] for k in (0, 3)), strict=True):
+    for ours, theirs in zip((centers, directions), (pickle.loads(done.stdout)[k] for k in (0, 3)), strict=True):
         assert np.allclose(ours[np.lexsort(np.round(ours, 9).T)], theirs[np.lexsort(np.round(theirs, 9).T)])
 
 
@@ -273,7 +273,7 @@ def test_the_others():
         ({"holes": [[1.0, 2, 3]]}, "p", ValueError, "holes"),
         ({"holes": [[0.0, 0.0]]}, "p", ValueError, "hole 0"),
         ({"regions": [[1.0]]}, "p", ValueError, "regions"),
-        ({"colours": [[1.0]]}, "p", KeyError, "colours"),
+        ({"colors": [[1.0]]}, "p", KeyError, "colors"),
     ],
 )
 def test_what_is_refused(change, switches, error, words):

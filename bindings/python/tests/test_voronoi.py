@@ -1,4 +1,4 @@
-"""Voronoi diagrams against fractions: every vertex is the nearest number to the exact centre, equal centres are one vertex."""
+"""Voronoi diagrams against fractions: every vertex is the nearest number to the exact center, equal centers are one vertex."""
 
 from fractions import Fraction
 from itertools import pairwise, product
@@ -25,8 +25,8 @@ def solved(rows, right):
     return [row[-1] for row in m]
 
 
-def centre(corners):
-    """The exact centre of the sphere through corners, rounded once."""
+def center(corners):
+    """The exact center of the sphere through corners, rounded once."""
     first, *others = [[Fraction(float(x)) for x in corner] for corner in corners]
     rows = [[2 * (x - y) for x, y in zip(other, first, strict=True)] for other in others]
     right = [sum(x * x for x in other) - sum(x * x for x in first) for other in others]
@@ -77,10 +77,10 @@ SETS = {
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_vertices_are_exact_centres_rounded_once(name):
+def test_vertices_are_exact_centers_rounded_once(name):
     points = SETS[name]
     diagram = delone.Voronoi(points)
-    expected = {centre(points[row]) for row in diagram.triangulation.simplices}
+    expected = {center(points[row]) for row in diagram.triangulation.simplices}
     assert None not in expected
     assert len(diagram.vertices) == len(expected)
     assert {tuple(vertex) for vertex in diagram.vertices} == expected
@@ -92,7 +92,7 @@ def test_a_box_has_one_vertex(a, low):
     corners = np.array(list(product((0.0, 1.0), repeat=3))) * [a, 2 * a, 3 * a] + low
     # Its corners are exactly on one sphere, whatever was rounded.
     diagram = delone.Voronoi(corners)
-    assert diagram.vertices.tolist() == [list(centre(corners[[0, 1, 2, 4]]))]
+    assert diagram.vertices.tolist() == [list(center(corners[[0, 1, 2, 4]]))]
     assert all(-1 in ridge for ridge in diagram.ridge_vertices)
 
 
@@ -165,7 +165,7 @@ def test_what_is_written_into_arrays_is_looked_at(ndim):
     for name in ("transform", "equations", "vertex_to_simplex"):
         with pytest.raises(IndexError, match="-1 is out of bounds for 50"):
             getattr(triangulation, name)
-    # Neighbours of something else have no meaning, but an end.
+    # Neighbors of something else have no meaning, but an end.
     diagram = delone.Voronoi(points)
     diagram.triangulation.neighbors[:] = np.roll(diagram.triangulation.neighbors, 1)
     assert len(diagram.regions) == 51

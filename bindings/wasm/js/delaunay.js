@@ -118,7 +118,7 @@ export class Delaunay {
     return (this.#now.duplicates ??= this.#plane.duplicates());
   }
 
-  /** The neighbours of a point, around it; on a line the one before and the one after. */
+  /** The neighbors of a point, around it; on a line the one before and the one after. */
   *neighbors(i) {
     const {collinear} = this;
     if (collinear) {

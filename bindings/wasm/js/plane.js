@@ -211,12 +211,12 @@ export class Plane {
     return polygons(engine.ints(0), engine.floats(0)).map((points, k) => ({level: heights[k], isClosed: closes[k] === 1, points}));
   }
 
-  /** The centres of the circles of all triangles. */
-  circumcentres() {
-    this.call("circumcentres");
-    const centres = this.engine.floats(0);
+  /** The centers of the circles of all triangles. */
+  circumcenters() {
+    this.call("circumcenters");
+    const centers = this.engine.floats(0);
     this.engine.clear();
-    return centres;
+    return centers;
   }
 
   /** Cells clipped to a rectangle. */

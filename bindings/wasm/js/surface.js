@@ -8,7 +8,7 @@ const methods = ["linear", "sibson", "laplace"];
 const outsides = [undefined, "nearest", "hull"];
 
 /**
- * Values at points, given as a flat array of coordinates. `method` is "linear", or natural neighbours by areas ("sibson") or by edges
+ * Values at points, given as a flat array of coordinates. `method` is "linear", or natural neighbors by areas ("sibson") or by edges
  * ("laplace"); `outside` of the hull is NaN, or with "nearest" the value of the nearest point, with "hull" that at the nearest place of the
  * hull, which goes on without steps.
  */

@@ -6,7 +6,7 @@ import {checkBounds, number} from "./input.js";
 import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
 
-/** Cells with so many corners are not made again for each neighbour. */
+/** Cells with so many corners are not made again for each neighbor. */
 const INDEXED_RING = 32;
 
 export class Voronoi {
@@ -49,9 +49,9 @@ export class Voronoi {
     return (now.cells = isFlat ? new Cells([], []) : this.#plane.cells(this.#bounds));
   }
 
-  /** The centres of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
+  /** The centers of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
   get circumcenters() {
-    return (this.#now.circumcenters ??= this.#plane.circumcentres());
+    return (this.#now.circumcenters ??= this.#plane.circumcenters());
   }
 
   /** For each point four numbers: the directions in which the first and the last edge of its cell leave, if it is on the hull. */

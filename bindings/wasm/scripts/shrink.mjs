@@ -41,9 +41,9 @@ export async function shrink(linked) {
   // What the first pass makes unreachable the second one takes away.
   for (let pass = 0; pass < 2; ++pass) module.optimize();
   module.runPasses(["strip-debug", "strip-producers", "strip-target-features"]);
-  const optimised = module.emitBinary();
-  clearUnread(linked, optimised, module.emitText());
-  const cleared = binaryen.readBinary(optimised);
+  const optimized = module.emitBinary();
+  clearUnread(linked, optimized, module.emitText());
+  const cleared = binaryen.readBinary(optimized);
   cleared.setFeatures(features);
   cleared.runPasses(["memory-packing"]);
   return cleared.emitBinary();

@@ -2,7 +2,7 @@
 //
 // What panics and formats was emptied (shrink.mjs), and what it said is left: places in the source and tables of digits, a third of it
 // incompressible. A linker that writes relocations (`--emit-relocs`) says where each piece of data is, which addresses of it are in the code,
-// and which piece holds the address of which other. A piece is read if one of its addresses is still in the code that was optimised, or if a
+// and which piece holds the address of which other. A piece is read if one of its addresses is still in the code that was optimized, or if a
 // piece that is read holds one. Addresses that are in the code and that nobody knows keep the piece that they are in.
 
 /** Kinds of relocations: addresses in memory in one of three spellings; places in functions and sections; indices of several kinds. */
@@ -148,8 +148,8 @@ export function withoutRelocations(bytes) {
   return Buffer.concat([...kept, bytes.subarray(from)]);
 }
 
-/** Fills with zeros what is not read, in the bytes of an optimised module: `linked` is what was linked, `text` the optimised one as text. */
-export function clearUnread(linked, optimised, text) {
+/** Fills with zeros what is not read, in the bytes of an optimized module: `linked` is what was linked, `text` the optimized one as text. */
+export function clearUnread(linked, optimized, text) {
   const {found, inCode} = pieces(linked);
   const pending = [];
   // Where a segment begins is no use of it.
@@ -167,7 +167,7 @@ export function clearUnread(linked, optimised, text) {
   // Strings may share their ends.
   const [read, unread] = [found.filter(({isRead}) => isRead), found.filter(({isRead}) => !isRead)];
   const isNeeded = (address) => !unread.some((piece) => holds(address)(piece)) || read.some((piece) => holds(address)(piece));
-  for (const {address, place, size} of segments(optimised)) {
-    for (let k = 0; k < size; ++k) if (!isNeeded(address + k)) optimised[place + k] = 0;
+  for (const {address, place, size} of segments(optimized)) {
+    for (let k = 0; k < size; ++k) if (!isNeeded(address + k)) optimized[place + k] = 0;
   }
 }

@@ -7,7 +7,7 @@ use crate::tray;
 
 export! {
     /// Leaves values at the points on the tray, from a value for each point of the triangulation as numbers on it. `method`: 0 linear,
-    /// 1 natural neighbours by areas (Sibson), 2 by edges (Laplace). `outside` of the hull: 0 NaN, 1 the nearest
+    /// 1 natural neighbors by areas (Sibson), 2 by edges (Laplace). `outside` of the hull: 0 NaN, 1 the nearest
     /// point's, 2 that at the nearest place of the hull.
     fn interpolate(plane: usize, method: u32, outside: u32) -> i32 {
         let (queries, values) = (tray::points(), tray::numbers());

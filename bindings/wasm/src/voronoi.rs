@@ -97,11 +97,11 @@ impl Measures {
 }
 
 export! {
-    /// Leaves the centres of the circles of all triangles, in their order; infinite where they are beyond the range of numbers.
-    fn circumcentres(plane: usize) -> i32 {
+    /// Leaves the centers of the circles of all triangles, in their order; infinite where they are beyond the range of numbers.
+    fn circumcenters(plane: usize) -> i32 {
         planes::with(plane, |plane| {
-            let centres = plane.triangulation.voronoi().vertices();
-            tray::leave_floats(0, centres.flat_map(|c| c.unwrap_or([f64::INFINITY; 2])).collect());
+            let centers = plane.triangulation.voronoi().vertices();
+            tray::leave_floats(0, centers.flat_map(|c| c.unwrap_or([f64::INFINITY; 2])).collect());
             Ok(0)
         })
     }

@@ -75,20 +75,20 @@ for (const [name, [points, bounds]] of Object.entries(cases)) {
     });
   });
 
-  test(`neighbours of cells and edges drawn of ${name}`, () => {
+  test(`neighbors of cells and edges drawn of ${name}`, () => {
     const d = new Delaunay(points);
     const v = d.voronoi(bounds);
     const count = points.length / 2;
     const sides = [];
     for (let i = 0; i < count; ++i) {
       const neighbors = [...v.neighbors(i)];
-      for (const j of neighbors) assert.ok([...v.neighbors(j)].includes(i), "neighbours of each other");
+      for (const j of neighbors) assert.ok([...v.neighbors(j)].includes(i), "neighbors of each other");
       const cell = v.cellPolygon(i) ?? [];
       const inner = cell.slice(1).filter(([x, y], k) => {
         const [u, w] = cell[k];
         return !((x === u && (x === bounds[0] || x === bounds[2])) || (y === w && (y === bounds[1] || y === bounds[3])));
       });
-      assert.equal(inner.length, neighbors.length, "a side for each neighbour");
+      assert.equal(inner.length, neighbors.length, "a side for each neighbor");
       sides.push(inner.length);
     }
     const drawn = (v.render() ?? "").split("M").length - 1;
@@ -122,7 +122,7 @@ test("bounds without area have no cells", () => {
   assert.equal(v.cellPolygon(0), null);
 });
 
-test("centres beyond the range of numbers are infinite", () => {
+test("centers beyond the range of numbers are infinite", () => {
   const d = Delaunay.from([[0, 0], [1e300, 0], [5e299, 1e-300]]);
   assert.deepEqual([...d.voronoi([0, 0, 1, 1]).circumcenters].map(Math.abs), [Infinity, Infinity]);
   assert.equal(d.voronoi([0, -1, 1, 1]).cellPolygon(0).length, 5);

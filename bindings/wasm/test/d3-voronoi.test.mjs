@@ -19,7 +19,7 @@ test("the cell of a point that coincides is not drawn", () => {
   assert.equal(v.contains(1, NaN, 0), false);
 });
 
-test("a circumcentre in the middle of a side", () => {
+test("a circumcenter in the middle of a side", () => {
   const v = Delaunay.from([[0, 0], [1, 0], [0, 1]]).voronoi([-1, -1, 2, 2]);
   const expected = ["M-1,-1L0.5,-1L0.5,0.5L-1,0.5Z", "M2,-1L2,2L0.5,0.5L0.5,-1Z", "M-1,2L-1,0.5L0.5,0.5L2,2Z"];
   expected.forEach((path, i) => {
@@ -56,7 +56,7 @@ test("no edges of length zero", () => {
   assert.equal(ring(w.cellPolygon(0)), ring([[0, 20], [0, 0], [15, 0], [15, 20], [0, 20]]));
 });
 
-test("neighbours are those inside of the bounds", () => {
+test("neighbors are those inside of the bounds", () => {
   const v = Delaunay.from([[300, 10], [200, 100], [300, 100], [10, 10], [350, 200], [350, 400]]).voronoi([0, 0, 500, 150]);
   assert.deepEqual(neighbors(v, 6), [[1, 2], [0, 2, 3], [0, 1, 4], [1], [2], []]);
 });
@@ -71,7 +71,7 @@ test("no unnecessary corners", () => {
   }
 });
 
-test("a triangle so thin that its centre is far away", () => {
+test("a triangle so thin that its center is far away", () => {
   // Two rings of eight points, and one of them twice, the second a unit in the last place away.
   const around = (x) => [[x + 60, 253.75], [x + 42.42640687119285, 296.17640687119285], [x, 313.75], [x - 42.42640687119285, 296.17640687119285],
     [x - 60, 253.75], [x - 42.42640687119285, 211.32359312880715], [x, 193.75], [x + 42.42640687119285, 211.32359312880715]];
@@ -95,7 +95,7 @@ for (const [name, sx, sy, bounds] of [
   ["mirrored", -1, 1, [-100, 0, 0, 90]],
   ["turned", -1, -1, [-100, -90, 0, 0]],
 ]) {
-  test(`neighbours of points ${name}`, () => {
+  test(`neighbors of points ${name}`, () => {
     const v = Delaunay.from([[10, 10], [36, 27], [90, 19], [50, 75]].map(([x, y]) => [sx * x, sy * y])).voronoi(bounds);
     assert.deepEqual(neighbors(v, 4), [[1], [0, 2, 3], [1, 3], [1, 2]]);
   });

@@ -1,5 +1,5 @@
 // What d3-delaunay's own tests ask of a triangulation (ISC, Observable), in our words. Compared up to what we do not promise: triangles
-// as sets, neighbours as sets, rings up to where they start.
+// as sets, neighbors as sets, rings up to where they start.
 
 import assert from "node:assert/strict";
 import test from "node:test";
@@ -49,7 +49,7 @@ test("bounds, by default and given", () => {
   assert.throws(() => Delaunay.from(square).voronoi([0, 0, 1, NaN]), /invalid bounds/);
 });
 
-test("circumcentres and vectors", () => {
+test("circumcenters and vectors", () => {
   const v = Delaunay.from(square).voronoi();
   assert.deepEqual(v.circumcenters, Float64Array.of(0.5, 0.5, 0.5, 0.5));
   assert.deepEqual(v.vectors, Float64Array.of(0, -1, -1, 0, 1, 0, 0, -1, -1, 0, 0, 1, 0, 1, 1, 0));
@@ -89,7 +89,7 @@ test("two points", () => {
   assert.ok(v.delaunay.triangles instanceof Int32Array && v.delaunay.triangles.length === 3);
 });
 
-test("points on a line: neighbours before and after", () => {
+test("points on a line: neighbors before and after", () => {
   const {delaunay} = Delaunay.from([[0, 0], [1, 0], [-1, 0]]).voronoi([-1, -1, 2, 2]);
   assert.deepEqual(neighbors(delaunay, 3), [[1, 2], [0], [0]]);
   assert.deepEqual([...delaunay.collinear], [2, 0, 1]);
@@ -140,14 +140,14 @@ test("the nearest of many points on a line", () => {
 
 test("update after points were changed in place", () => {
   const d = Delaunay.from([[0, 0], [300, 0], [0, 300], [300, 300], [100, 100]]);
-  const centres = () => {
+  const centers = () => {
     const c = d.voronoi([-500, -500, 500, 500]).circumcenters;
     return Array.from({length: c.length / 2}, (_, k) => `${c[2 * k]},${c[2 * k + 1]}`).sort();
   };
-  assert.deepEqual(centres(), ["150,-50", "-50,150", "250,150", "150,250"].sort());
+  assert.deepEqual(centers(), ["150,-50", "-50,150", "250,150", "150,250"].sort());
   for (let i = 0; i < d.points.length; ++i) d.points[i] = -d.points[i];
   assert.equal(d.update(), d);
-  assert.deepEqual(centres(), ["-150,50", "-250,-150", "50,-150", "-150,-250"].sort());
+  assert.deepEqual(centers(), ["-150,50", "-250,-150", "50,-150", "-150,-250"].sort());
 });
 
 test("update to a line and back", () => {

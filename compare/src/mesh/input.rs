@@ -79,7 +79,7 @@ impl Input {
     }
 }
 
-/// The centre of the largest triangle of each part that an even number of segments is around, and some.
+/// The center of the largest triangle of each part that an even number of segments is around, and some.
 fn seeds_of_holes(c: &Constrained2) -> Result<Vec<[f64; 2]>, String> {
     let even_odd = c.domains(&Fill::EvenOdd).map_err(|error| error.to_string())?;
     let unseeded = Seeds2::default();
@@ -92,9 +92,9 @@ fn seeds_of_holes(c: &Constrained2) -> Result<Vec<[f64; 2]>, String> {
             largest[part] = Some((t, area));
         }
     }
-    let centre = |t| {
+    let center = |t| {
         let corners = c.mesh().corners(t).map(|v| c.point(v));
         [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0)
     };
-    Ok(largest.into_iter().flatten().map(|(t, _)| centre(t)).collect())
+    Ok(largest.into_iter().flatten().map(|(t, _)| center(t)).collect())
 }

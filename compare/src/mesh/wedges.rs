@@ -24,7 +24,7 @@ pub struct Wedges {
 const TOLERANCE: f64 = 1e-9;
 
 impl Wedges {
-    /// The small angles between neighbouring segments of each point.
+    /// The small angles between neighboring segments of each point.
     pub fn new(input: &Input) -> Self {
         let mut around: Vec<Vec<usize>> = vec![Vec::new(); input.points.len()];
         for &[a, b] in &input.segments {

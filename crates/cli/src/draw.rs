@@ -87,7 +87,7 @@ fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure>
         camera: picture::Camera { wireframe: args.wireframe, ..camera },
         edges: yes(args.edges),
         points: yes(args.points),
-        fill: yes(args.colours),
+        fill: yes(args.colors),
         disks: args.disks,
         ..picture::Options::default()
     })

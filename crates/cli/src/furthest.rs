@@ -44,7 +44,7 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("queries", queries.len());
     let circle = furthest.enclosing_circle().map(|circle| {
         let support: Vec<usize> = circle.support.iter().map(|v| v.index()).collect();
-        json!({ "centre": circle.centre, "radius": circle.radius, "support": support })
+        json!({ "center": circle.center, "radius": circle.radius, "support": support })
     });
     stats.set("enclosing_circle", circle);
     if format == Format::Npy {

@@ -81,7 +81,7 @@ fn graph(args: &ProximityArgs) -> Result<Graph, Failure> {
     }
     Ok(match args.kind {
         ProximityName::Gabriel => Graph::Gabriel,
-        ProximityName::RelativeNeighbours => Graph::RelativeNeighbors,
+        ProximityName::RelativeNeighbors => Graph::RelativeNeighbors,
         ProximityName::SpanningTree => Graph::SpanningTree,
         ProximityName::Beta => Graph::Beta(args.beta.unwrap_or(1.0)),
         ProximityName::Nearest => Graph::Nearest(args.k.unwrap_or(1) as usize),

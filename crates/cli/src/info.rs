@@ -57,7 +57,7 @@ pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> 
         line(R::WORDS.simplex[1], simplices.to_string());
         d.describe(&mut line, &mut stats);
         let (ties, tied) = (ties(&d), R::WORDS.tied);
-        line(&format!("{tied} neighbours"), format!("{ties} pairs of {}", R::WORDS.simplex[1]));
+        line(&format!("{tied} neighbors"), format!("{ties} pairs of {}", R::WORDS.simplex[1]));
         stats.set(&format!("{tied}_pairs"), ties);
         let mut lengths = lengths(&d);
         lengths.sort_unstable_by(f64::total_cmp);
@@ -136,7 +136,7 @@ fn describe(graph: &Graph, counts: &[(&str, usize)], line: &mut impl FnMut(&str,
     }
 }
 
-/// Pairs of neighbours that could be divided in another way.
+/// Pairs of neighbors that could be divided in another way.
 fn ties<R: Room>(d: &R) -> usize {
     let position = |v| d.position(v).unwrap_or_default();
     let is_tie = |s: R::Simplex, next: R::Simplex| {
@@ -146,8 +146,8 @@ fn ties<R: Room>(d: &R) -> usize {
         let simplex: Vec<R::Point> = corners.as_ref().iter().map(|&v| position(v)).collect();
         apex.is_some_and(|&v| R::is_tie(&simplex, position(v)))
     };
-    let neighbours = |s| (0..=R::Point::COUNT).filter_map(move |k| d.across(s, k));
-    let tied = |s| neighbours(s).filter(|&next| s < next && is_tie(s, next)).count();
+    let neighbors = |s| (0..=R::Point::COUNT).filter_map(move |k| d.across(s, k));
+    let tied = |s| neighbors(s).filter(|&next| s < next && is_tie(s, next)).count();
     d.simplices().map(tied).sum()
 }
 

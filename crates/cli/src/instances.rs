@@ -18,14 +18,14 @@ pub(crate) const NAME: &str = "{}";
 /// Counts of each instance, which are added up.
 const COUNTS: [&str; 5] = ["points", "duplicates", "vertices", "simplices", "hull"];
 
-/// Preprocesses the centres and triangulates all instances.
-pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) -> Result<(), Failure> {
+/// Preprocesses the centers and triangulates all instances.
+pub(crate) fn run<R: Room>(args: &TriangulateArgs, centers: &Path, quiet: bool) -> Result<(), Failure> {
     let inputs = args.input.paths();
     let stats_path = args.input.stats.as_deref();
-    let (all, each) = outputs(args, centres, &inputs)?;
+    let (all, each) = outputs(args, centers, &inputs)?;
     room::check_formats::<R>(&all)?;
     let mut stats = Stats::start();
-    let mut hints = preprocess::<R>(args, centres, quiet)?;
+    let mut hints = preprocess::<R>(args, centers, quiet)?;
     stats.phase("preprocess");
     let mut all_work = Work::default();
     let mut records = Vec::new();
@@ -46,7 +46,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
         stats.phase("build");
         if hints.gave_up() {
             let name = input.display();
-            note(quiet, format_args!("{name}: far from the centres: walks from hints were given up"));
+            note(quiet, format_args!("{name}: far from the centers: walks from hints were given up"));
         }
         room::settle(args.duplicates.rule(), hints.current(), &mut about);
         outcome::finish(args, outputs, hints.current(), &points, &about, &mut stats, quiet)?;
@@ -73,22 +73,22 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
 }
 
 /// Finds order and hints.
-fn preprocess<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) -> Result<R::Hints, Failure> {
-    let points = room::queries::<R>(centres, quiet)?;
+fn preprocess<R: Room>(args: &TriangulateArgs, centers: &Path, quiet: bool) -> Result<R::Hints, Failure> {
+    let points = room::queries::<R>(centers, quiet)?;
     let _phase = Phase::start(quiet, "preprocessing");
     let seed = args.strategy.seed;
     let order = match args.hint_order {
         None | Some(HintOrderName::Spatial) => HintOrder::Spatial { seed },
         Some(HintOrderName::Random) => HintOrder::Random { seed },
     };
-    let hints = R::Hints::from_centres(&points, order);
-    hints.map_err(|error| Failure::points(centres, &error))
+    let hints = R::Hints::from_centers(&points, order);
+    hints.map_err(|error| Failure::points(centers, &error))
 }
 
 /// The outputs of all instances, one instance after the other, and how many each has.
 fn outputs(
     args: &TriangulateArgs,
-    centres: &Path,
+    centers: &Path,
     inputs: &[&Path],
 ) -> Result<(Vec<(PathBuf, Format)>, usize), Failure> {
     if inputs.len() > 1
@@ -109,7 +109,7 @@ fn outputs(
     };
     let paths: Vec<PathBuf> =
         inputs.iter().flat_map(|input| args.output.iter().map(|output| named(input, output))).collect();
-    let read: Vec<&Path> = inputs.iter().copied().chain([centres]).collect();
+    let read: Vec<&Path> = inputs.iter().copied().chain([centers]).collect();
     let outputs = files::outputs(&paths, args.to, args.input.stats.as_deref(), &read)?;
     Ok((args.wkt.of(outputs)?, args.output.len()))
 }

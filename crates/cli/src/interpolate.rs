@@ -54,7 +54,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
                     .grid(&place.area(&room::bounds(&points, &label)?), size.unwrap_or(1.0))
                     .map_err(|error| Failure::points(&label, &error))?,
             };
-            (centres::<R>(&grid, &label)?, Some(grid))
+            (centers::<R>(&grid, &label)?, Some(grid))
         }
     };
     stats.phase("read");
@@ -161,20 +161,20 @@ fn table(args: &InterpolateArgs, about: &Cloud, count: usize, quiet: bool) -> Re
     Ok(table)
 }
 
-/// The centres of all cells.
-fn centres<R: Room>(grid: &Grid, label: &Path) -> Result<Vec<R::Point>, Failure> {
+/// The centers of all cells.
+fn centers<R: Room>(grid: &Grid, label: &Path) -> Result<Vec<R::Point>, Failure> {
     /// The largest number of cells: each takes some fifty bytes.
     const MAX_CELLS: f64 = 2e9;
     if grid.cells() > MAX_CELLS {
         let what = format!("{}: the raster would have {:e} cells", label.display(), grid.cells());
         return Err(Failure::new(what, "choose a larger --grid, or use delone dtm"));
     }
-    let centre = |row: usize, column: usize| {
+    let center = |row: usize, column: usize| {
         let mut point = R::Point::default();
-        point.as_mut()[..2].copy_from_slice(&grid.centre(column, row));
+        point.as_mut()[..2].copy_from_slice(&grid.center(column, row));
         point
     };
-    Ok((0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| centre(row, column))).collect())
+    Ok((0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| center(row, column))).collect())
 }
 
 /// Values at all places, a row for each.

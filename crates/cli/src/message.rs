@@ -69,7 +69,7 @@ impl Failure {
             delone::Error::NoCell { .. } => "clip to what contains all points, and give each point once",
             delone::Error::Parameter { .. } => "give a number in that range",
             delone::Error::Area { .. } => "give a positive number for each point, or leave the point out",
-            delone::Error::Length { .. } => "give as many centres as points, row by row",
+            delone::Error::Length { .. } => "give as many centers as points, row by row",
             _ => "split the points into smaller sets",
         };
         Self::new(format!("{}: {error}", path.display()), help)

@@ -46,18 +46,18 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
         args.strategy.refuse("segments")?;
         return constrained::triangulate(args, quiet);
     }
-    if let Some(centres) = &args.hints {
+    if let Some(centers) = &args.hints {
         args.strategy.refuse("--hints")?;
-        return instances::run::<R>(args, centres, quiet);
+        return instances::run::<R>(args, centers, quiet);
     }
     if let Some(path) = args.output.iter().find(|path| path.to_string_lossy().contains(instances::NAME)) {
         return Err(Failure::usage(
             format!("{}: {{}} in the name of an output is for instances of imprecise points", path.display()),
-            "name their centres with --hints, or choose another name: several inputs are one set",
+            "name their centers with --hints, or choose another name: several inputs are one set",
         ));
     }
     if args.hint_order.is_some() {
-        return Err(Failure::usage("--hint-order is for --hints", "name the file of centres with --hints"));
+        return Err(Failure::usage("--hint-order is for --hints", "name the file of centers with --hints"));
     }
     let plan = R::plan(args.algorithm, &args.strategy)?;
     let stats_path = args.input.stats.as_deref();

@@ -150,7 +150,7 @@ fn hulls_and_furthest_points() {
     place.succeed("furthest p.csv --queries q.csv -o f.npy --stats s.json -q");
     let stats: Value =
         serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
-    assert_eq!(stats["enclosing_circle"]["centre"], serde_json::json!([2.0, 2.0]));
+    assert_eq!(stats["enclosing_circle"]["center"], serde_json::json!([2.0, 2.0]));
     let npy = std::fs::read(place.path("f.npy")).expect("answers");
     assert!(String::from_utf8_lossy(&npy).contains("'shape': (4, )"), "one dimension");
     place.file("none.csv", "");
@@ -268,8 +268,8 @@ fn disks_and_hints_are_drawn() {
     place.file("square.csv", "0,0\n4,0\n4,4\n0,4\n");
     place.succeed("draw square.csv --disks 0.25 --certain -o c.svg -o c.png --size 300 -q");
     let svg = std::fs::read_to_string(place.path("c.svg")).expect("written");
-    let strokes = |colour: &str| {
-        let path = svg.lines().find(|line| line.contains(&format!(r#"stroke="{colour}""#))).expect("lines");
+    let strokes = |color: &str| {
+        let path = svg.lines().find(|line| line.contains(&format!(r#"stroke="{color}""#))).expect("lines");
         path.matches('M').count()
     };
     // The sides are certain, both diagonals possible.

@@ -194,7 +194,7 @@ fn lines_and_polygons() {
             "-q dtm p.csv --cell 0.5 --method {method} --breaklines wall.geojson -o a.npy"
         ));
         let (_, columns, values) = raster(&place, "a.npy");
-        // The row of centres along the wall.
+        // The row of centers along the wall.
         let along: Vec<f64> = values[9 * columns..10 * columns].to_vec();
         assert!(
             along[2..18].iter().all(|z| (z - 5.0).abs() < if method == "linear" { 1e-9 } else { 0.6 }),

@@ -105,7 +105,7 @@ fn indices_are_checked() {
     place.fail("check u", 1, "ids-");
 }
 
-/// Data that no proof can check: which index is whose, heights, neighbours, tables.
+/// Data that no proof can check: which index is whose, heights, neighbors, tables.
 #[test]
 fn content_is_checked() {
     let place = Place::new();
@@ -180,7 +180,7 @@ fn content_is_checked() {
     }
 }
 
-/// Neighbours and tables of a folder that was done before, or whose run was stopped while it wrote them.
+/// Neighbors and tables of a folder that was done before, or whose run was stopped while it wrote them.
 #[test]
 fn content_that_comes_later_is_known() {
     let place = Place::new();
@@ -270,7 +270,7 @@ fn outputs_that_cannot_be_written_are_told_first() {
 }
 
 #[test]
-fn neighbours_of_changed_triangles_are_refused() {
+fn neighbors_of_changed_triangles_are_refused() {
     let place = Place::new();
     tiles(&place);
     copy(&place);

@@ -24,8 +24,8 @@ fn every_kind_is_written() {
         all
     };
     assert_eq!(of("gabriel"), with(&[[1, 6], [2, 6]]));
-    assert_eq!(of("relative-neighbours"), with(&[[1, 6], [2, 6]]));
     assert_eq!(of("relative-neighbors"), with(&[[1, 6], [2, 6]]));
+    assert_eq!(of("relative-neighbours"), with(&[[1, 6], [2, 6]]));
     assert_eq!(of("spanning-tree"), with(&[[1, 6]]));
     assert_eq!(of("beta --beta 1"), with(&[[1, 6], [2, 6]]));
     assert_eq!(of("beta --beta 40"), with(&[]));
@@ -71,7 +71,7 @@ fn space_and_few_points() {
     place.file("empty.csv", "");
     place.file("same.csv", "1,1\n1,1\n");
     for name in ["empty", "same"] {
-        for kind in ["gabriel", "relative-neighbours", "spanning-tree", "nearest -k 3", "beta --beta 1.5"] {
+        for kind in ["gabriel", "relative-neighbors", "spanning-tree", "nearest -k 3", "beta --beta 1.5"] {
             let text = place.succeed(&format!("graph {name}.csv --kind {kind} -o - --to csv -q"));
             assert_eq!(text, "from,to,length\n", "{name} {kind}");
         }

@@ -280,7 +280,7 @@ fn smoothing_makes_angles_larger() {
 }
 
 #[test]
-fn colours_of_angles_differ_from_others() {
+fn colors_of_angles_differ_from_others() {
     let place = Place::new();
     place.file("plan.poly", PLAN);
     place.succeed("-q mesh plan.poly -o a.svg --color angle -o a.png");

@@ -6,7 +6,7 @@ use crate::place::{Place, text};
 const BAY: &str =
     r#"{"type":"Polygon","coordinates":[[[0.1,0.01],[0.2,0.02],[0.3,0.03],[1.2,-0.98],[0.1,0.01]]]}"#;
 
-/// A hole between three neighbouring numbers: no number is in it.
+/// A hole between three neighboring numbers: no number is in it.
 const HOLE: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],
 [[1,1],[1,1.0000000000000002],[1.0000000000000002,1],[1,1]]]}"#;
 

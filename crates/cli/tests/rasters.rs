@@ -19,7 +19,7 @@ fn lines_keep_their_heights_over_points() {
         place
             .succeed(&format!("-q dtm p.csv --cell 4 --method {method} --breaklines river.geojson -o a.npy"));
         let (_, columns, values) = raster(&place, "a.npy");
-        // The row of centres on the river. Natural neighbours look past the vertices of a line a little.
+        // The row of centers on the river. Natural neighbors look past the vertices of a line a little.
         let along = &values[12 * columns..13 * columns];
         let off = if method == "linear" { 1e-9 } else { 0.05 };
         assert!(along[1..23].iter().all(|z| (z + 5.0).abs() < off), "{method}: {along:?}");

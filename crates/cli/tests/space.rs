@@ -63,11 +63,11 @@ fn corners(line: &str) -> Vec<u64> {
 fn instances_are_triangulated_by_hints() {
     let place = Place::new();
     for (kind, dim) in [("disks", 2), ("balls", 3)] {
-        place.succeed(&format!("generate {kind} -n 400 --seed 1 -o centres.npy"));
+        place.succeed(&format!("generate {kind} -n 400 --seed 1 -o centers.npy"));
         place.succeed(&format!("generate {kind} -n 400 --seed 2 -o other.npy"));
-        for instance in ["centres.npy", "other.npy"] {
+        for instance in ["centers.npy", "other.npy"] {
             let out = format!("-o hinted.ply --check --stats s.json -q --dim {dim}");
-            place.succeed(&format!("triangulate {instance} --hints centres.npy {out}"));
+            place.succeed(&format!("triangulate {instance} --hints centers.npy {out}"));
             place.succeed(&format!("triangulate {instance} --dim {dim} -o plain.ply -q --stats p.json"));
             let (hinted, plain) = (json(&place, "s.json"), json(&place, "p.json"));
             assert_eq!((&hinted["simplices"], &hinted["hull"]), (&plain["simplices"], &plain["hull"]));
@@ -76,7 +76,7 @@ fn instances_are_triangulated_by_hints() {
             assert!(instance == "other.npy" || visited < 400 * 5, "{kind}: {visited}");
         }
         // The same at once: a file for each instance, and totals.
-        let several = "triangulate centres.npy other.npy --hints centres.npy -q --stats all.json";
+        let several = "triangulate centers.npy other.npy --hints centers.npy -q --stats all.json";
         place.succeed(&format!("{several} -o all-{{}}.ply --dim {dim}"));
         let all = json(&place, "all.json");
         assert_eq!(all["points"], 800);
@@ -88,14 +88,14 @@ fn instances_are_triangulated_by_hints() {
         place.fail(&format!("{several} -o {{}}.csv --dim {dim}"), 2, "csv");
     }
     place.fail(
-        "triangulate centres.npy other.npy -o x-{}.npy",
+        "triangulate centers.npy other.npy -o x-{}.npy",
         2,
         "{} in the name of an output is for instances",
     );
-    place.fail("triangulate centres.npy centres.npy --hints other.npy -o {}-x.npy", 2, "would overwrite");
+    place.fail("triangulate centers.npy centers.npy --hints other.npy -o {}-x.npy", 2, "would overwrite");
     place.file("few.csv", "0,0\n1,1\n");
-    place.fail("triangulate few.csv --hints centres.npy -o x.npy", 1, "2 points for 400 centres");
-    place.fail("triangulate few.csv --hints centres.npy --locate tree -o x.npy", 2, "cannot be used");
+    place.fail("triangulate few.csv --hints centers.npy -o x.npy", 1, "2 points for 400 centers");
+    place.fail("triangulate few.csv --hints centers.npy --locate tree -o x.npy", 2, "cannot be used");
 }
 
 #[test]

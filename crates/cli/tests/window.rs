@@ -1,4 +1,4 @@
-//! Outputs of a folder of tiles: a part is that part of the whole, an overview has the points that it should, neighbours know each
+//! Outputs of a folder of tiles: a part is that part of the whole, an overview has the points that it should, neighbors know each
 //! other.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 Ok(if sign == 0.0 { 0.0 } else { sign.signum() })
             };
             let row: Vec<f64> = (0..SIDE).map(sign).collect::<Result<_, _>>()?;
-            // Equal neighbours are one box.
+            // Equal neighbors are one box.
             let mut start = 0;
             for run in row.chunk_by(|a, b| a == b) {
                 let ends = [start, start + run.len()].map(|x| side + x as f64 * size);

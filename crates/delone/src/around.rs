@@ -1,7 +1,7 @@
 //! The surroundings of a point: the simplices whose circles contain it, found without a change. A new vertex there would take their
-//! place; their corners are its natural neighbours.
+//! place; their corners are its natural neighbors.
 //!
-//! Source: Sibson, "A vector identity for the Dirichlet tessellation", 1980, for the neighbours; Bowyer and Watson, 1981, for the
+//! Source: Sibson, "A vector identity for the Dirichlet tessellation", 1980, for the neighbors; Bowyer and Watson, 1981, for the
 //! search. Cost: O(k) for k simplices after location, which is O(1) expected from a simplex nearby.
 
 use std::fmt::Debug;
@@ -43,7 +43,7 @@ pub struct Around<T: Triangulation + ?Sized> {
     pub(crate) ring: Ring,
 }
 
-/// The neighbours of a point of the plane, numbered as they were met, and triangles between them.
+/// The neighbors of a point of the plane, numbered as they were met, and triangles between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ring {
     pub(crate) vertices: Vec<VertexId>,
@@ -106,7 +106,7 @@ impl<T: Triangulation + ?Sized> Around<T> {
         self.is_at_hull
     }
 
-    /// Its natural neighbours, by id, into a buffer.
+    /// Its natural neighbors, by id, into a buffer.
     pub(crate) fn neighbors(&self, ids: &mut Vec<VertexId>) {
         ids.clear();
         ids.extend(self.border.iter().flat_map(|(facet, _)| facet.as_ref().iter().copied()));

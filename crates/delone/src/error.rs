@@ -92,9 +92,9 @@ pub enum Error {
     #[error("a triangulation that is located by history cannot lose vertices")]
     InsertOnly,
     /// An instance of another number of points than was preprocessed.
-    #[error("{found} points for {expected} centres")]
+    #[error("{found} points for {expected} centers")]
     Length {
-        /// The number of centres.
+        /// The number of centers.
         expected: usize,
         /// The number of points.
         found: usize,

@@ -55,7 +55,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
         self.sites.iter().map(|(&id, site)| (id, site.place))
     }
 
-    /// All with their places and the simplices above them, by simplex as far as these are known: neighbours after neighbours.
+    /// All with their places and the simplices above them, by simplex as far as these are known: neighbors after neighbors.
     pub(crate) fn all_above(&self) -> impl Iterator<Item = (VertexId, Place, Option<C>)> + '_ {
         let unknown = self.sites.iter().filter(|(_, site)| site.cell.is_none());
         let unknown = unknown.map(|(&id, site)| (id, site.place, None));

@@ -37,13 +37,13 @@ pub const MERGE_AUTO: f64 = 9.094_947_017_729_282e-13;
 /// let at = |i: usize| [0.1 * (i % 2) as f64 + 0.7, 0.1 * (i / 2 % 2) as f64 + 0.3, 0.1 * (i / 4) as f64];
 /// let d = Delaunay3::from_points(&[0, 1, 2, 3, 4, 5, 6, 7].map(at))?;
 /// let all: Vec<_> = d.tetrahedron_ids().collect();
-/// let centres: Vec<[f64; 3]> = all.iter().filter_map(|&t| d.circumcentre(t)).collect();
-/// // Tetrahedra across from each other have a side of the diagram between their centres.
+/// let centers: Vec<[f64; 3]> = all.iter().filter_map(|&t| d.circumcenter(t)).collect();
+/// // Tetrahedra across from each other have a side of the diagram between their centers.
 /// let number = |t| all.iter().position(|&other| other == t).map(|i| i as u32);
 /// let across = all.iter().flat_map(|&t| (0..4).map(move |k| (t, k)));
 /// let sides: Vec<[u32; 2]> =
 ///     across.filter_map(|(t, k)| Some([number(t)?, number(d.across(t, k)?)?])).collect();
-/// let merged = merged_vertices(&centres, &sides, 1e-12)?;
+/// let merged = merged_vertices(&centers, &sides, 1e-12)?;
 /// assert!(merged.iter().all(|&i| i == merged[0]));
 /// # Ok::<(), delone::Error>(())
 /// ```

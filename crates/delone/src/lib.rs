@@ -36,7 +36,7 @@
 //! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | about O(n) where disks overlap little |
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
-//! | who is near whom: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
+//! | who is near whom: Gabriel graph, relative neighbors, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | where which k sites are the nearest | [`Delaunay2::order`], [`OrderCells2`] | | O(k^2 n) on evenly spread sites |
 //! | alpha complexes: shapes of points, with weights too, and filtrations | [`Delaunay2::alpha`], [`Regular2::alpha`], [`Alpha2`] | [`Delaunay3::alpha`], [`Regular3::alpha`], [`Alpha3`] | O(k log k) for k faces |
@@ -46,7 +46,7 @@
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | only the nearest points are wanted | [`Neighbors2`] | [`Neighbors3`] | O(log n) expected a query, on evenly spread points |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
-//! | values between points: linear, natural neighbours, smooth; rasters, contours, thinning | [`surface`], [`surface::Interpolator`] | the same | O(1) expected each from nearby |
+//! | values between points: linear, natural neighbors, smooth; rasters, contours, thinning | [`surface`], [`surface::Interpolator`] | the same | O(1) expected each from nearby |
 //! | more points than memory, on one machine or many | [`tiles`] | | as the points, and little for the seams |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
 //! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |
@@ -72,7 +72,7 @@
 //!
 //! # Debug builds
 //!
-//! A debug build of a program computes exact predicates without the optimiser. To optimise Delone alone, once:
+//! A debug build of a program computes exact predicates without the optimizer. To optimize Delone alone, once:
 //!
 //! ```toml
 //! [profile.dev.package]

@@ -4,7 +4,7 @@
 //! for fast vector quantization", 1993, for the distance of a cell, which is updated on the way down.
 //!
 //! The points of a leaf are next to each other in memory, which is what a query waits for: a triangulation's own are elsewhere,
-//! and so are their neighbours. Floating point passes by cells that are surely too far away, by a proven bound; whichever of two
+//! and so are their neighbors. Floating point passes by cells that are surely too far away, by a proven bound; whichever of two
 //! points is nearer is decided exactly, so that answers are those of the triangulations.
 //!
 //! Cost: O(n log n) to build, 21 bytes a point in the plane and 29 in space; O(log n) expected for the nearest, O(k log n) for k, on evenly

@@ -245,12 +245,12 @@ pub trait Imprecise: Sized + Send + Sync {
     type Triangulation: Change;
 
     /// Finds order and hints.
-    fn from_centres(
-        centres: &[<Self::Triangulation as Triangulation>::Point],
+    fn from_centers(
+        centers: &[<Self::Triangulation as Triangulation>::Point],
         order: HintOrder,
     ) -> Result<Self, Error>;
 
-    /// Triangulates an instance: point i near centre i.
+    /// Triangulates an instance: point i near center i.
     fn triangulate(
         &mut self,
         instance: &[<Self::Triangulation as Triangulation>::Point],

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Verdict {
-    /// Pairs of neighbours whose corners are cocircular, or cospherical, and divided in another way than the canonical
+    /// Pairs of neighbors whose corners are cocircular, or cospherical, and divided in another way than the canonical
     /// one. None of them: it is *the* canonical triangulation.
     pub other_ties: usize,
     /// Simplices given in negative order: clockwise triangles.

@@ -196,8 +196,8 @@ fn shapes_have_their_euler_characteristic() {
     assert_eq!(surface_genus(&alpha.outline(1.3)), 0);
     let mut random = Random::new(3);
     let mut clusters: Vec<[f64; 2]> = Vec::new();
-    for centre in [0.0, 10.0] {
-        clusters.extend((0..200).map(|_| [centre + random.unit(), random.unit()]));
+    for center in [0.0, 10.0] {
+        clusters.extend((0..200).map(|_| [center + random.unit(), random.unit()]));
     }
     let alpha = Delaunay2::from_points(&clusters).expect("finite").alpha();
     let labels = alpha.components(1.0);

@@ -143,7 +143,7 @@ fn queries_outside_do_not_follow_the_hull() {
         let d = Delaunay2::from_points(&points).expect("finite");
         let mut random = Random::new(1);
         let (mut visited, mut compared) = (Counts::default(), Counts::default());
-        // The vertex that all others of a hub are at is a neighbour of each, and has to be left by all of its edges.
+        // The vertex that all others of a hub are at is a neighbor of each, and has to be left by all of its edges.
         let rounds = if name == "hub" { 200 } else { 4000 };
         for round in 0..rounds {
             let q = beyond(&points, &mut random);
@@ -335,7 +335,7 @@ fn levels_on_a_line_lead_to_what_is_beside_it() {
     }
 }
 
-/// A wheel of uneven spokes, whose hub is a neighbour of all; a fan, whose hub is on the hull; and hubs that are neighbours.
+/// A wheel of uneven spokes, whose hub is a neighbor of all; a fan, whose hub is on the hull; and hubs that are neighbors.
 fn hubs(n: usize) -> Vec<(&'static str, Vec<[f64; 2]>)> {
     let wheel = |from: f64, turn: f64, hub: [f64; 2]| {
         let mut random = Random::new(11);

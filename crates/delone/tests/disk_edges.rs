@@ -16,8 +16,8 @@ fn edges(points: &[[f64; 2]]) -> Pairs {
     pairs(Delaunay2::from_points(points).expect("finite").edges())
 }
 
-fn found(centres: &[[f64; 2]], radius: f64) -> [Pairs; 2] {
-    let edges = Delaunay2::from_points(centres).expect("finite").disk_edges(radius).expect("a radius");
+fn found(centers: &[[f64; 2]], radius: f64) -> [Pairs; 2] {
+    let edges = Delaunay2::from_points(centers).expect("finite").disk_edges(radius).expect("a radius");
     [edges.certain(), edges.possible()].map(|list| {
         assert!(list.is_sorted());
         pairs(list.iter().copied())
@@ -77,14 +77,14 @@ fn all_pairs_and_obstacles_by_angles() {
     let mut checked = [0; 4];
     for (seed, n) in [(1, 3), (2, 5), (3, 12), (4, 30), (5, 60)] {
         for kind in [Kind::Uniform, Kind::Clusters, Kind::Circle, Kind::Disks] {
-            let centres = kind.points(n, seed);
+            let centers = kind.points(n, seed);
             let distance =
-                |i: usize, k: usize| (centres[i][0] - centres[k][0]).hypot(centres[i][1] - centres[k][1]);
-            let spacing = edges(&centres).iter().map(|&[i, k]| distance(i, k)).fold(f64::INFINITY, f64::min);
+                |i: usize, k: usize| (centers[i][0] - centers[k][0]).hypot(centers[i][1] - centers[k][1]);
+            let spacing = edges(&centers).iter().map(|&[i, k]| distance(i, k)).fold(f64::INFINITY, f64::min);
             for radius in [0.05, 0.3, 1.0, 5.0].map(|x| x * spacing) {
-                let [certain, possible] = found(&centres, radius);
+                let [certain, possible] = found(&centers, radius);
                 for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))) {
-                    let [sure, some] = by_definition(&centres, i, j, radius);
+                    let [sure, some] = by_definition(&centers, i, j, radius);
                     let what = format!("{} {n} {radius} {i} {j}", kind.name());
                     if sure.1 > 1e-9 {
                         assert_eq!(certain.contains(&[i, j]), sure.0, "certain {what}");
@@ -100,15 +100,15 @@ fn all_pairs_and_obstacles_by_angles() {
 }
 
 /// Instances inside, on the borders of the disks, and with all points pushed from or to one place.
-fn instances(centres: &[[f64; 2]], radius: f64, random: &mut Random) -> Vec<Vec<[f64; 2]>> {
+fn instances(centers: &[[f64; 2]], radius: f64, random: &mut Random) -> Vec<Vec<[f64; 2]>> {
     // What rounding moves a point outside is less than this.
     let radius = radius * (1.0 - 1e-9);
-    let mut all = vec![centres.to_vec()];
+    let mut all = vec![centers.to_vec()];
     for round in 0..60 {
-        all.push(moved(centres, radius, random));
-        let middle = centres[round % centres.len()].map(|x| x + random.between(-radius, radius));
+        all.push(moved(centers, radius, random));
+        let middle = centers[round % centers.len()].map(|x| x + random.between(-radius, radius));
         for choice in 0..3 {
-            let pushed = centres.iter().map(|p| {
+            let pushed = centers.iter().map(|p| {
                 let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
                 let angle = if choice < 2 { y.atan2(x) } else { random.between(0.0, 7.0) };
                 let to = if choice == 1 { -radius } else { radius };
@@ -124,13 +124,13 @@ fn instances(centres: &[[f64; 2]], radius: f64, random: &mut Random) -> Vec<Vec<
 fn instances_lie_between() {
     let mut random = Random::new(9);
     for kind in [Kind::Uniform, Kind::Grid, Kind::Disks, Kind::Line, Kind::Circle] {
-        let centres = kind.points(50, 3);
-        let [a, b] = [centres[0], centres[1]];
+        let centers = kind.points(50, 3);
+        let [a, b] = [centers[0], centers[1]];
         let distance = (a[0] - b[0]).hypot(a[1] - b[1]);
         for radius in [0.0, 0.01, 0.1, 0.4].map(|x| x * distance) {
-            let [certain, possible] = found(&centres, radius);
+            let [certain, possible] = found(&centers, radius);
             assert!(certain.is_subset(&possible));
-            for instance in instances(&centres, radius, &mut random) {
+            for instance in instances(&centers, radius, &mut random) {
                 let edges = edges(&instance);
                 assert!(certain.is_subset(&edges), "{} {radius}", kind.name());
                 assert!(edges.is_subset(&possible), "{} {radius}", kind.name());
@@ -139,28 +139,28 @@ fn instances_lie_between() {
     }
 }
 
-/// An edge of the centres that is not certain is missing in an instance: the two as far as possible from a place of their
+/// An edge of the centers that is not certain is missing in an instance: the two as far as possible from a place of their
 /// bisector, all others as near.
 #[test]
 fn what_is_not_certain_is_missing_somewhere() {
-    let centres = Kind::Disks.points(40, 7);
+    let centers = Kind::Disks.points(40, 7);
     let (mut missing, mut uncertain) = (0, 0);
     for radius in [0.3, 0.6] {
-        let [certain, _] = found(&centres, radius);
-        for [i, j] in edges(&centres).difference(&certain).copied() {
+        let [certain, _] = found(&centers, radius);
+        for [i, j] in edges(&centers).difference(&certain).copied() {
             uncertain += 1;
-            let (p, q) = (centres[i], centres[j]);
+            let (p, q) = (centers[i], centers[j]);
             let is_missing = (-400..=400).any(|t| {
                 let s = (f64::from(t) / 401.0 * FRAC_PI_2).tan() / 2.0;
                 let c = [
                     f64::midpoint(p[0], q[0]) - s * (q[1] - p[1]),
                     f64::midpoint(p[1], q[1]) + s * (q[0] - p[0]),
                 ];
-                let instance: Vec<[f64; 2]> = (0..centres.len())
+                let instance: Vec<[f64; 2]> = (0..centers.len())
                     .map(|k| {
-                        let to = [centres[k][0] - c[0], centres[k][1] - c[1]];
+                        let to = [centers[k][0] - c[0], centers[k][1] - c[1]];
                         let by = if k == i || k == j { radius } else { -radius } / to[0].hypot(to[1]);
-                        [centres[k][0] + by * to[0], centres[k][1] + by * to[1]]
+                        [centers[k][0] + by * to[0], centers[k][1] + by * to[1]]
                     })
                     .collect();
                 !edges(&instance).contains(&[i, j])
@@ -172,7 +172,7 @@ fn what_is_not_certain_is_missing_somewhere() {
 }
 
 #[test]
-fn few_collinear_equal_and_cocircular_centres() {
+fn few_collinear_equal_and_cocircular_centers() {
     assert_eq!(found(&[], 1.0), [Pairs::new(), Pairs::new()]);
     assert_eq!(found(&[[1.0, 2.0]], 1.0), [Pairs::new(), Pairs::new()]);
     let one = Pairs::from([[0, 1]]);
@@ -205,11 +205,11 @@ fn any_numbers() {
     assert_eq!(d.disk_edges(1e300).expect("a radius").possible().len(), 3);
     assert_eq!(d.disk_edges(f64::from_bits(1)).expect("a radius").certain().len(), 3);
     // A power of two changes nothing, as long as no bit is lost.
-    let centres = Kind::Disks.points(30, 2);
+    let centers = Kind::Disks.points(30, 2);
     for radius in [0.5, 1.0, 3.0] {
-        let expected = found(&centres, radius);
+        let expected = found(&centers, radius);
         for scale in [2f64.powi(990), 2f64.powi(-900)] {
-            let scaled: Vec<[f64; 2]> = centres.iter().map(|p| p.map(|x| x * scale)).collect();
+            let scaled: Vec<[f64; 2]> = centers.iter().map(|p| p.map(|x| x * scale)).collect();
             assert_eq!(found(&scaled, radius * scale), expected, "{radius} {scale:e}");
         }
     }

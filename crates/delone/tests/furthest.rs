@@ -123,7 +123,7 @@ fn one_set_has_one_furthest_triangulation() {
     assert_eq!(furthest.triangles().count(), 6);
     assert_eq!(furthest.furthest([0.0, 0.0]).expect("finite").map(VertexId::index), Some(6));
     let circle = furthest.enclosing_circle().expect("there are points");
-    assert_eq!((circle.centre, circle.radius), ([0.0, 0.0], 5.0));
+    assert_eq!((circle.center, circle.radius), ([0.0, 0.0], 5.0));
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn the_support_of_an_enclosing_circle_is_on_it() {
             let circle = d.furthest().enclosing_circle().expect("there are points");
             for v in circle.support {
                 let [x, y] = d.point(v);
-                let distance = (x - circle.centre[0]).hypot(y - circle.centre[1]);
+                let distance = (x - circle.center[0]).hypot(y - circle.center[1]);
                 assert!((distance - circle.radius).abs() < 1e-9 * (1.0 + circle.radius), "{kind:?} {n}");
             }
         }

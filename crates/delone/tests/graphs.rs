@@ -51,7 +51,7 @@ fn as_defined<const D: usize, T: Graphs<D>>(points: &[[f64; D]], what: &str) {
     assert_eq!(d.found(Graph::Gabriel), expected, "{what}: Gabriel");
     assert_eq!(d.found(Graph::Beta(1.0)), expected, "{what}: beta 1");
     let expected = graphs::relative_neighbors(points);
-    assert_eq!(d.found(Graph::RelativeNeighbors), expected, "{what}: relative neighbours");
+    assert_eq!(d.found(Graph::RelativeNeighbors), expected, "{what}: relative neighbors");
     assert_eq!(d.found(Graph::Beta(2.0)), expected, "{what}: beta 2");
     assert_eq!(d.found(Graph::SpanningTree), graphs::spanning_tree(points), "{what}: tree");
     for beta in BETAS.into_iter().chain((points.len() < 20).then_some(f64::MAX)) {

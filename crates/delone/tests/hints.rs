@@ -25,18 +25,18 @@ fn same(d: &Delaunay2, points: &[[f64; 2]], what: &str) {
 fn every_instance_is_the_canonical_triangulation() {
     for &kind in Kind::ALL {
         for order in ORDERS {
-            let centres = kind.points(300, 1);
-            let mut hints = Hints2::from_points(&centres, order).expect("finite");
+            let centers = kind.points(300, 1);
+            let mut hints = Hints2::from_points(&centers, order).expect("finite");
             let mut random = Random::new(7);
             for round in 0..6 {
                 let instance: Vec<[f64; 2]> = match round {
-                    0 => centres.clone(),
-                    1 => centres.iter().map(|p| p.map(|x| x + random.between(-0.5, 0.5))).collect(),
+                    0 => centers.clone(),
+                    1 => centers.iter().map(|p| p.map(|x| x + random.between(-0.5, 0.5))).collect(),
                     // Anywhere, all in one place, on a line, and apart again.
                     2 => kind.points(300, 99),
                     3 => vec![[2.0, 3.0]; 300],
                     4 => (0..300).map(|i| [f64::from(i % 50), 1.0]).collect(),
-                    _ => centres.iter().rev().copied().collect(),
+                    _ => centers.iter().rev().copied().collect(),
                 };
                 let what = format!("{} {order:?} {round}", kind.name());
                 if round % 2 == 0 {
@@ -54,13 +54,13 @@ fn every_instance_is_the_canonical_triangulation() {
 fn hints_are_the_nearest_before() {
     for (order, kind) in ORDERS.into_iter().flat_map(|order| [Kind::Uniform, Kind::Line].map(|k| (order, k)))
     {
-        let centres = kind.points(300, 1);
-        let hints = Hints2::from_points(&centres, order).expect("finite");
+        let centers = kind.points(300, 1);
+        let hints = Hints2::from_points(&centers, order).expect("finite");
         let (order, found): (Vec<usize>, Vec<usize>) = hints.order().zip(hints.hints()).unzip();
         assert_eq!(found[0], order[0]);
         for k in 1..300 {
             let distance =
-                |i: usize| exact::compare_distances(centres[order[k]], centres[found[k]], centres[i]);
+                |i: usize| exact::compare_distances(centers[order[k]], centers[found[k]], centers[i]);
             assert!(order[..k].contains(&found[k]) && order[..k].iter().all(|&i| distance(i) <= 0), "{k}");
         }
     }
@@ -68,11 +68,11 @@ fn hints_are_the_nearest_before() {
 
 #[test]
 fn hints_that_mislead_are_given_up() {
-    let centres = Kind::Uniform.points(30_000, 1);
-    let mut hints = Hints2::from_points(&centres, HintOrder::default()).expect("finite");
-    hints.triangulate(&centres).expect("finite");
+    let centers = Kind::Uniform.points(30_000, 1);
+    let mut hints = Hints2::from_points(&centers, HintOrder::default()).expect("finite");
+    hints.triangulate(&centers).expect("finite");
     assert!(!hints.gave_up());
-    let mut shuffled = centres.clone();
+    let mut shuffled = centers.clone();
     Random::new(3).shuffle(&mut shuffled);
     let mut work = Work::default();
     let d = hints.triangulate_observed(&shuffled, &mut work).expect("finite");
@@ -80,7 +80,7 @@ fn hints_that_mislead_are_given_up() {
     assert!(hints.gave_up());
     assert!(work.visited < 60 * 30_000, "{}", work.visited);
     // The hints themselves are as good as before.
-    same(hints.triangulate(&centres).expect("finite"), &centres, "again");
+    same(hints.triangulate(&centers).expect("finite"), &centers, "again");
     assert!(!hints.gave_up());
 }
 
@@ -89,12 +89,12 @@ fn nested_disks_take_quadratic_time_until_hints_are_given_up() {
     // §6.2: disks that overlap two by two, of which an instance can make all hints bad.
     let mut last = 0.0;
     for (n, gives_up) in [(101, false), (201, false), (401, false), (1201, true)] {
-        let (centres, instance) = (Kind::Nested.points(n, 0), Kind::NestedInstance.points(n, 0));
+        let (centers, instance) = (Kind::Nested.points(n, 0), Kind::NestedInstance.points(n, 0));
         // The instance is inside of the disks, of radius 2.1 times their height.
-        for (p, q) in centres.iter().zip(&instance).skip(1) {
+        for (p, q) in centers.iter().zip(&instance).skip(1) {
             assert!(((p[0] - q[0]) / p[1]).hypot((p[1] - q[1]) / p[1]) <= 2.1);
         }
-        let mut hints = Hints2::from_points(&centres, HintOrder::Random { seed: 1 }).expect("finite");
+        let mut hints = Hints2::from_points(&centers, HintOrder::Random { seed: 1 }).expect("finite");
         let mut work = Work::default();
         same(hints.triangulate_observed(&instance, &mut work).expect("finite"), &instance, "nested");
         assert_eq!(hints.gave_up(), gives_up, "{n}");
@@ -133,9 +133,9 @@ fn instances_on_several_threads_are_those_on_one() {
 #[test]
 fn hints_that_mislead_in_space_are_given_up() {
     let n = 60_000;
-    let centres = Kind3::Cube.points(n, 1);
-    let mut hints = Hints3::from_points(&centres, HintOrder::default()).expect("finite");
-    let mut shuffled = centres.clone();
+    let centers = Kind3::Cube.points(n, 1);
+    let mut hints = Hints3::from_points(&centers, HintOrder::default()).expect("finite");
+    let mut shuffled = centers.clone();
     Random::new(3).shuffle(&mut shuffled);
     let d = hints.triangulate(&shuffled).expect("finite");
     let fresh = Delaunay3::from_points(&shuffled).expect("finite");
@@ -145,20 +145,20 @@ fn hints_that_mislead_in_space_are_given_up() {
     );
     assert!(hints.gave_up());
     let count = fresh.tetrahedron_ids().count();
-    assert_eq!(hints.triangulate(&centres).expect("finite").tetrahedron_ids().count(), count);
+    assert_eq!(hints.triangulate(&centers).expect("finite").tetrahedron_ids().count(), count);
     assert!(!hints.gave_up());
 }
 
 #[test]
 fn bad_instances_leave_the_last_one() {
-    let centres = Kind::Uniform.points(50, 1);
-    let mut hints = Hints2::from_points(&centres, HintOrder::default()).expect("finite");
-    hints.triangulate(&centres).expect("finite");
-    same(hints.current(), &centres, "current");
+    let centers = Kind::Uniform.points(50, 1);
+    let mut hints = Hints2::from_points(&centers, HintOrder::default()).expect("finite");
+    hints.triangulate(&centers).expect("finite");
+    same(hints.current(), &centers, "current");
     let before = triangles(hints.current());
-    let error = hints.triangulate(&centres[1..]).err();
+    let error = hints.triangulate(&centers[1..]).err();
     assert_eq!(error, Some(Error::Length { expected: 50, found: 49 }));
-    let mut bad = centres.clone();
+    let mut bad = centers.clone();
     bad[7][1] = f64::NAN;
     let error = hints.triangulate(&bad).err().map(|error| error.to_string());
     assert_eq!(error.as_deref(), Some("point 7 has the y coordinate NaN, which is not finite"));
@@ -174,10 +174,10 @@ fn walks_are_as_short_as_in_the_paper() {
     // §5: 2.8 triangles visited a point for disjoint unit disks, whatever their number and the order.
     for order in ORDERS {
         for n in [1_000, 10_000, 100_000] {
-            let centres = Kind::Disks.points(n, 5);
-            let mut hints = Hints2::from_points(&centres, order).expect("finite");
+            let centers = Kind::Disks.points(n, 5);
+            let mut hints = Hints2::from_points(&centers, order).expect("finite");
             let mut random = Random::new(9);
-            let instance: Vec<[f64; 2]> = centres
+            let instance: Vec<[f64; 2]> = centers
                 .iter()
                 .map(|&[x, y]| {
                     loop {
@@ -225,17 +225,17 @@ fn every_instance_in_space_is_the_canonical_triangulation() {
     for &kind in Kind3::ALL {
         for order in ORDERS {
             let n = if kind == Kind3::HugeSpan3 { 40 } else { 200 };
-            let centres = kind.points(n, 1);
-            let mut hints = Hints3::from_points(&centres, order).expect("finite");
+            let centers = kind.points(n, 1);
+            let mut hints = Hints3::from_points(&centers, order).expect("finite");
             let mut random = Random::new(7);
             for round in 0..6 {
                 let instance: Vec<[f64; 3]> = match round {
-                    0 => centres.clone(),
-                    1 => centres.iter().map(|p| p.map(|x| x + random.between(-0.5, 0.5))).collect(),
+                    0 => centers.clone(),
+                    1 => centers.iter().map(|p| p.map(|x| x + random.between(-0.5, 0.5))).collect(),
                     2 => kind.points(n, 99),
                     3 => vec![[2.0, 3.0, 4.0]; n],
                     4 => (0..n).map(|i| [(i % 50) as f64, 1.0, (i % 2) as f64]).collect(),
-                    _ => centres.iter().rev().copied().collect(),
+                    _ => centers.iter().rev().copied().collect(),
                 };
                 let what = format!("{} {order:?} {round}", kind.name());
                 let d = if round % 2 == 0 { hints.triangulate(&instance) } else { hints.follow(&instance) };
@@ -250,8 +250,8 @@ fn walks_in_space_are_shorter_than_in_the_paper() {
     // §5: 5.2 to 5.3 visited in random order, 4.5 in spatial order. Ours cross the facet furthest from the goal.
     for order in ORDERS {
         for n in [1_000, 20_000] {
-            let centres = Kind3::Balls.points(n, 5);
-            let mut hints = Hints3::from_points(&centres, order).expect("finite");
+            let centers = Kind3::Balls.points(n, 5);
+            let mut hints = Hints3::from_points(&centers, order).expect("finite");
             let mut random = Random::new(9);
             let mut inside = || loop {
                 let u = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
@@ -259,7 +259,7 @@ fn walks_in_space_are_shorter_than_in_the_paper() {
                     break u;
                 }
             };
-            let instance: Vec<[f64; 3]> = centres
+            let instance: Vec<[f64; 3]> = centers
                 .iter()
                 .map(|p| {
                     let u = inside();

@@ -221,7 +221,7 @@ fn history_makes_the_same_hull_and_knows_what_is_inside() {
             assert_eq!(Hull3::by_flips(&points, seed).expect("finite").0, hull, "{name}");
             let inside = |q: [f64; 3]| history.contains(q).expect("finite");
             assert!(points.iter().all(|&p| inside(p)), "{name}");
-            // Between neighbours in the list, and beyond them: some on faces, some outside.
+            // Between neighbors in the list, and beyond them: some on faces, some outside.
             for pair in points.windows(2).take(60) {
                 for share in [0.25, 0.5, 1.25, -3.0] {
                     let q = [0, 1, 2].map(|k| pair[0][k] * (1.0 - share) + pair[1][k] * share);

@@ -238,7 +238,7 @@ fn distances_and_regions_against_sorting() {
 
 #[test]
 fn many_vertices_at_the_same_distance() {
-    // Around the centre of a circle of lattice points (radius 65) the smallest is at the left.
+    // Around the center of a circle of lattice points (radius 65) the smallest is at the left.
     let mut points = Vec::new();
     for [x, y] in
         [[65, 0], [63, 16], [60, 25], [56, 33], [52, 39], [39, 52], [33, 56], [25, 60], [16, 63], [0, 65]]

@@ -97,7 +97,7 @@ fn window(set: &Set<2>) -> Region2 {
     Region2::polygon(&[outer]).expect("a polygon")
 }
 
-/// Segments between points that are neighbours in their order along a line: some cross.
+/// Segments between points that are neighbors in their order along a line: some cross.
 fn segments(set: &Set<2>) -> Vec<[usize; 2]> {
     let mut by_sum: Vec<usize> = (0..set.points.len()).collect();
     by_sum.sort_by(|&i, &j| {
@@ -227,7 +227,7 @@ const PLANE: &[Operation<2>] = &[
         let mut outcome = Outcome::default();
         furthest.triangles().for_each(|t| outcome.set(t.map(|v| d.point(v)).to_vec()));
         if let Some(circle) = furthest.enclosing_circle() {
-            outcome.measure(&[circle.centre], circle.radius, 1);
+            outcome.measure(&[circle.center], circle.radius, 1);
         }
         outcome
     }),
@@ -303,10 +303,10 @@ const SPACE: &[Operation<3>] = &[
         d.hull_facets().for_each(|t| outcome.set(t.map(|v| d.point(v)).to_vec()));
         outcome
     }),
-    ("centres", |set| {
+    ("centers", |set| {
         let d = Delaunay3::from_points(&set.points).expect("finite");
         let mut outcome = Outcome::default();
-        d.tetrahedron_ids().filter_map(|t| d.circumcentre(t)).for_each(|centre| outcome.set(vec![centre]));
+        d.tetrahedron_ids().filter_map(|t| d.circumcenter(t)).for_each(|center| outcome.set(vec![center]));
         outcome
     }),
     ("regular tetrahedra", |set| {

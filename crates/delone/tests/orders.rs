@@ -107,7 +107,7 @@ fn ties_are_as_defined() {
     }
 }
 
-/// Regions with many neighbours, whose polygons are triangulated otherwise: the hub of a wheel, a point beside a line.
+/// Regions with many neighbors, whose polygons are triangulated otherwise: the hub of a wheel, a point beside a line.
 #[test]
 fn large_regions_are_as_defined() {
     let rim = |n: u32| (0..n).map(move |i| std::f64::consts::TAU * f64::from(i) / f64::from(n));
@@ -230,8 +230,8 @@ fn points_are_in_the_region_of_their_nearest() {
             let order = d.order(k).expect("an order");
             let between = points.windows(3).flat_map(|p| {
                 let middle = [p[0][0] / 2.0 + p[1][0] / 2.0, p[0][1] / 2.0 + p[1][1] / 2.0];
-                let centre = delone_predicates::circumcentre(p[0], p[1], p[2]);
-                [Some(p[0]), Some(middle), centre]
+                let center = delone_predicates::circumcenter(p[0], p[1], p[2]);
+                [Some(p[0]), Some(middle), center]
             });
             for q in between.flatten().chain(Kind::Uniform.points(100, 4)) {
                 let mut nearest = d.k_nearest(q, k).expect("finite");
@@ -261,8 +261,8 @@ fn regions_tile_and_are_in_their_places() {
                     let area: f64 = order.regions().map(|own| cells.area(own)).sum();
                     assert!((area - region.area()).abs() < 1e-9 * region.area(), "{kind:?} {n} {k} {i}");
                     for own in order.regions().filter(|&own| cells.area(own) > 1e-9 && i < 2) {
-                        let centre = cells.centroid(own).expect("an area");
-                        let found = order.locate(centre).expect("finite");
+                        let center = cells.centroid(own).expect("an area");
+                        let found = order.locate(center).expect("finite");
                         assert_eq!(found.index(), own.index(), "{kind:?} {n} {k} {i}");
                     }
                 }

@@ -48,9 +48,9 @@ fn power_cells_tile_and_change_as_their_jacobian_says() {
         let cells = r.power().clip(region);
         for v in r.vertices() {
             let (site, rings) = (r.site(v).expect("a site"), cells.rings(v));
-            if let Some(centre) = cells.centroid(v).filter(|_| region.rings().count() == 1 && round % 2 == 0)
+            if let Some(center) = cells.centroid(v).filter(|_| region.rings().count() == 1 && round % 2 == 0)
             {
-                let nearest = r.nearest(centre).expect("finite").expect("one");
+                let nearest = r.nearest(center).expect("finite").expect("one");
                 assert!(
                     nearest == v || cells.area(v) < 1e-12,
                     "round {round} {v:?} {site:?} {}",

@@ -4,7 +4,7 @@ use delone::{Algorithm2, Delaunay2, Hierarchy, Locate};
 use delone_oracle::{brute, share};
 use proptest::prelude::*;
 
-/// A coordinate from a few families that meet: small integers, their neighbours in f64, halves, tiny and huge.
+/// A coordinate from a few families that meet: small integers, their neighbors in f64, halves, tiny and huge.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => (0_i32..6).prop_map(f64::from),

@@ -6,7 +6,7 @@ use delone_oracle::exact;
 
 fn queries(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut queries: Vec<[f64; 2]> = points.iter().copied().take(40).collect();
-    // Halfway between neighbours in the list, where there are ties on grids.
+    // Halfway between neighbors in the list, where there are ties on grids.
     queries.extend(points.windows(2).take(60).map(|p| [0, 1].map(|k| p[0][k] / 2.0 + p[1][k] / 2.0)));
     queries.extend(Kind::Uniform.points(40, 9));
     queries.extend([[0.0, 0.0], [1e300, 1.0], [-3.0, 1e-300]]);
@@ -79,7 +79,7 @@ fn sites_may_come_one_by_one() {
     }
 }
 
-/// The work of a query grows with the square of the logarithm, also where a site has much of the set for neighbours: what
+/// The work of a query grows with the square of the logarithm, also where a site has much of the set for neighbors: what
 /// 10,000 sites take says what 80,000 do.
 #[test]
 fn work_is_that_of_a_squared_logarithm() {
@@ -96,9 +96,9 @@ fn work_is_that_of_a_squared_logarithm() {
     }
 }
 
-/// A hub with a ring of neighbours: each query looks at a logarithm of them.
+/// A hub with a ring of neighbors: each query looks at a logarithm of them.
 #[test]
-fn no_neighbours_are_scanned() {
+fn no_neighbors_are_scanned() {
     for n in [2000, 16_000] {
         let mut points = Kind::Circle.points(n, 3);
         points.push([0.001, 0.002]);

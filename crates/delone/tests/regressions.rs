@@ -7,7 +7,7 @@ use delone_oracle::share;
 
 const LEAST: f64 = f64::from_bits(1);
 
-/// Points on a sphere and its centre, some of which change places: the border of what was to be mended did not part the
+/// Points on a sphere and its center, some of which change places: the border of what was to be mended did not part the
 /// filling in two, and the mesh led nowhere.
 #[test]
 fn points_that_change_places_on_a_sphere_come_to_an_end() {

@@ -93,15 +93,15 @@ fn any_mix_of_changes_gives_the_triangulation_of_what_is_left() {
 }
 
 #[test]
-fn the_centre_of_a_surface_comes_and_goes() {
-    // All tetrahedra are in conflict with it, and all points of the surface are its neighbours.
-    for (kind, centre) in [(Kind3::Sphere, [0.0; 3]), (Kind3::Sphere, [3.0, 1.0, 0.5])] {
+fn the_center_of_a_surface_comes_and_goes() {
+    // All tetrahedra are in conflict with it, and all points of the surface are its neighbors.
+    for (kind, center) in [(Kind3::Sphere, [0.0; 3]), (Kind3::Sphere, [3.0, 1.0, 0.5])] {
         let mut points = kind.points(4_000, 5);
         let mut d = Delaunay3::from_points(&points).expect("finite");
         let before = shape(&d);
-        let Ok(Inserted::New(v)) = d.insert(centre) else { panic!("a new vertex") };
+        let Ok(Inserted::New(v)) = d.insert(center) else { panic!("a new vertex") };
         assert_eq!(d.check(), Ok(()));
-        points.push(centre);
+        points.push(center);
         assert!(shape(&d) == shape(&Delaunay3::from_points(&points).expect("finite")));
         d.remove(v).expect("a vertex");
         assert_eq!(d.check(), Ok(()));

@@ -5,7 +5,7 @@ use delone::{Delaunay3, Dimension, VertexId};
 use delone_oracle::brute;
 use proptest::prelude::*;
 
-/// A coordinate from a few families that meet: small integers, their neighbours in f64, halves, tiny and huge.
+/// A coordinate from a few families that meet: small integers, their neighbors in f64, halves, tiny and huge.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         8 => (0_i32..4).prop_map(f64::from),

@@ -229,9 +229,9 @@ fn gradients_in_space_and_on_lines() {
     assert!(gradients(&line, &[0.0; 2]).is_err());
 }
 
-/// Natural neighbours do not jump where triangles change.
+/// Natural neighbors do not jump where triangles change.
 #[test]
-fn natural_neighbours_are_continuous() {
+fn natural_neighbors_are_continuous() {
     let points = Kind::Uniform.points(200, 5);
     let d = Delaunay2::from_points(&points).expect("finite");
     let values: Vec<f64> = points.iter().map(|[x, y]| (9.0 * x).sin() * (7.0 * y).cos()).collect();
@@ -246,7 +246,7 @@ fn natural_neighbours_are_continuous() {
     }
 }
 
-/// Rasters of sets with their own lattice, so that centres fall on vertices and edges.
+/// Rasters of sets with their own lattice, so that centers fall on vertices and edges.
 fn grids(points: &[[f64; 2]], random: &mut Random) -> Vec<Grid> {
     let bounds = Bounds::of(points.iter().copied());
     let size = [0, 1].map(|k| bounds.high[k] - bounds.low[k]).into_iter().fold(0.0, f64::max);
@@ -256,7 +256,7 @@ fn grids(points: &[[f64; 2]], random: &mut Random) -> Vec<Grid> {
     }
     for cells in [7.0, 40.0] {
         all.extend(Grid::aligned(&bounds, size / cells * (0.7 + 0.6 * random.unit())).ok());
-        // With centres on points.
+        // With centers on points.
         let [a, b] = [0, 1].map(|_| points[random.below(points.len())]);
         let step = [0, 1].map(|k| if a[k] == b[k] { size / cells } else { (a[k] - b[k]).abs() / 3.0 });
         let corner = [a[0] - 3.5 * step[0], a[1] + 4.5 * step[1]];
@@ -269,7 +269,7 @@ fn grids(points: &[[f64; 2]], random: &mut Random) -> Vec<Grid> {
     all
 }
 
-/// Each centre by location.
+/// Each center by location.
 #[test]
 fn rasters_are_what_locating_gives() {
     for &kind in Kind::ALL {
@@ -283,7 +283,7 @@ fn rasters_are_what_locating_gives() {
                 let mut f = Interpolator::linear(&d);
                 for row in 0..grid.rows() {
                     for column in 0..grid.columns() {
-                        let q = grid.centre(column, row);
+                        let q = grid.center(column, row);
                         let value = values[row * grid.columns() + column];
                         let located = f.value(q, &heights).expect("finite");
                         let found = d.find(q).expect("finite");

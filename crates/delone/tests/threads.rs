@@ -5,7 +5,7 @@ use delone_generators::{Kind, Kind3};
 use delone_oracle::all_cases;
 use rayon::ThreadPoolBuilder;
 
-/// Everything that a triangulation is: corners and neighbours by triangle, an edge of each vertex, duplicates.
+/// Everything that a triangulation is: corners and neighbors by triangle, an edge of each vertex, duplicates.
 fn bits(d: &Delaunay2) -> impl PartialEq + use<> {
     let mesh = d.mesh();
     let triangles: Vec<_> = mesh.triangles().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
@@ -142,7 +142,7 @@ fn threads_never_show_in_space() {
     }
 }
 
-/// Tetrahedra with their neighbours, and what is no vertex.
+/// Tetrahedra with their neighbors, and what is no vertex.
 fn bits_of_regular(r: &Regular3) -> impl PartialEq + use<> {
     let mesh = r.mesh();
     let cells: Vec<_> = r.tetrahedron_ids().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();

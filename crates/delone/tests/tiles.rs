@@ -282,12 +282,12 @@ fn what_is_seen_through_a_window_is_final() {
         let mut sorted: Vec<Triangle> =
             all.simplices().map(|t| all.corners(t).map(|v| all.point(v))).collect();
         sorted.iter_mut().for_each(|t| t.sort_by(|p, q| p.partial_cmp(q).expect("numbers")));
-        for centre in points.iter().step_by(if all_cases() { 601 } else { 1601 }) {
-            let near = points.iter().map(|p| (p[0] - centre[0]).abs().max((p[1] - centre[1]).abs()));
+        for center in points.iter().step_by(if all_cases() { 601 } else { 1601 }) {
+            let near = points.iter().map(|p| (p[0] - center[0]).abs().max((p[1] - center[1]).abs()));
             let mut near: Vec<f64> = near.collect();
             near.sort_by(f64::total_cmp);
             let side = near[20];
-            let window = Region { low: centre.map(|x| x - side), high: centre.map(|x| x + side) };
+            let window = Region { low: center.map(|x| x - side), high: center.map(|x| x + side) };
             let mut region = window;
             let tile = loop {
                 let inside: Vec<_> = points.iter().copied().filter(|&p| region.contains(p)).collect();
@@ -328,7 +328,7 @@ fn what_is_seen_through_a_window_is_final() {
             let mut of_all: Vec<Triangle> =
                 sorted.iter().copied().filter(|t| t.iter().any(|&p| clip(window, p))).collect();
             of_all.sort_by(|s, t| s.partial_cmp(t).expect("numbers"));
-            assert_eq!(of_tile, of_all, "{} {centre:?}", kind.name());
+            assert_eq!(of_tile, of_all, "{} {center:?}", kind.name());
             seen += of_all.len();
         }
     }

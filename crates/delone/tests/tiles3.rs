@@ -196,7 +196,7 @@ fn nasty_sets() {
         lattice(5e-324, 6),
         lattice(f64::from_bits(1 << 14), 6),
         lattice(2f64.powi(1000), 6),
-        // Centred cubes: cells of other shapes, integers.
+        // Centered cubes: cells of other shapes, integers.
         lattice(2.0, 5).into_iter().flat_map(|p| [p, p.map(|x| x + 1.0)]).collect(),
         // All on one sphere, exactly: integers whose squares have the sum 81 (turned and mirrored), and nearly.
         (0..48)

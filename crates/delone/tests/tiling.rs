@@ -1,4 +1,4 @@
-//! Clipped cells tile their region whatever falls on its border: circumcentres, midpoints, lattices, combs, all scales.
+//! Clipped cells tile their region whatever falls on its border: circumcenters, midpoints, lattices, combs, all scales.
 
 use delone::{Cells2, Delaunay2, Region2, VertexId};
 use delone_generators::{Kind, Random};
@@ -173,8 +173,8 @@ fn areas_beyond_the_range_are_infinite() {
     let (d, cells) = cells_of(&sites, &region);
     assert!(d.vertices().all(|v| cells.area(v) == f64::INFINITY));
     assert!(d.vertices().all(|v| cells.perimeter(v) == f64::INFINITY));
-    let centre = cells.centroid(VertexId::new(1)).expect("a cell");
-    assert!(centre.iter().all(|x| x.is_finite() && *x > 1e307), "{centre:?}");
+    let center = cells.centroid(VertexId::new(1)).expect("a cell");
+    assert!(center.iter().all(|x| x.is_finite() && *x > 1e307), "{center:?}");
     // With a hole as large, and with an area that fits while products on the way do not.
     let ring = |x: f64, y: f64| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
     let frame = Region2::polygon(&[ring(huge, huge), ring(huge / 2.0, huge / 2.0)]).expect("a frame");
@@ -189,7 +189,7 @@ fn areas_beyond_the_range_are_infinite() {
 }
 
 #[test]
-fn centres_of_tiny_and_huge_cells() {
+fn centers_of_tiny_and_huge_cells() {
     for scale in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
         let at = |x: f64, y: f64| [x * scale, y * scale];
         let region = Region2::rectangle(at(0.0, 0.0), at(4.0, 2.0)).expect("a rectangle");
@@ -246,9 +246,9 @@ fn sites(kind: usize, random: &mut Random) -> Points {
     }
 }
 
-/// Every edge of a cell is that of its neighbour, the other way round and to the bit, or on the border.
+/// Every edge of a cell is that of its neighbor, the other way round and to the bit, or on the border.
 #[test]
-fn neighbours_share_their_corners_to_the_bit() {
+fn neighbors_share_their_corners_to_the_bit() {
     let tenths: Points = (0..400).map(|i| [f64::from(i / 20) * 0.1, f64::from(i % 20) * 0.1]).collect();
     let mut sets = vec![("tenths", tenths)];
     sets.extend([7, 12, 100].map(|n| ("regular", regular(n, 1.0, 0.5, 0.5))));
@@ -272,7 +272,7 @@ fn neighbours_share_their_corners_to_the_bit() {
     }
 }
 
-/// Numbers that the diagram has on its own: circumcentres that are not far away, midpoints, sites.
+/// Numbers that the diagram has on its own: circumcenters that are not far away, midpoints, sites.
 fn landmarks(d: &Delaunay2) -> Points {
     let largest = d.points().iter().flatten().fold(0.0_f64, |max, x| max.max(x.abs()));
     let near = |p: &[f64; 2]| p.iter().all(|x| x.abs() <= 1e7 * largest);

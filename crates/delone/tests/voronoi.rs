@@ -233,7 +233,7 @@ fn relaxation_evens_out() {
 fn edges_go_between_their_sites() {
     let sites = [[1.0, 2.0], [5.0, 4.0], [2.0, 7.0]];
     let d = Delaunay2::from_points(&sites).expect("finite");
-    let centre = d.voronoi().vertices().next().flatten().expect("a triangle");
+    let center = d.voronoi().vertices().next().flatten().expect("a triangle");
     for e in d.mesh().undirected_edges().flat_map(|e| [e, d.mesh().twin(e)]) {
         let [a, b] = d.segment(e);
         let apart = [b[0] - a[0], b[1] - a[1]];
@@ -241,7 +241,7 @@ fn edges_go_between_their_sites() {
         let VoronoiEdge2::Ray { from, direction: [x, y] } = d.voronoi().edge(e) else {
             panic!("{a:?} {b:?}")
         };
-        assert_eq!(from, centre);
+        assert_eq!(from, center);
         // Half as long as the edge.
         assert_eq!([x.abs(), y.abs()], [apart[1].abs() / 2.0, apart[0].abs() / 2.0], "{a:?} {b:?}");
         assert_eq!(x * apart[0] + y * apart[1], 0.0, "{a:?} {b:?}");
@@ -280,7 +280,7 @@ fn rings_are_measured() {
 
 /// In any unit, and whatever the corner that is first.
 #[test]
-fn centres_of_mass_are_where_they_are_at_any_scale() {
+fn centers_of_mass_are_where_they_are_at_any_scale() {
     let mut corners = [[1.0, 2.0], [7.0, 2.0], [7.0, 5.0], [1.0, 11.0]];
     let d = Delaunay2::from_points(&[[3.0, 4.0]]).expect("finite");
     for exponent in [0, -400, -200, 300, 600, 1000] {
@@ -310,7 +310,7 @@ fn progress_is_told_now_and_then() {
     assert!(d.vertices().all(|v| cells.rings(v).count() == 1));
 }
 
-/// Cells of one lattice beside a border: made of the centres of triangles, which they share, or cut out.
+/// Cells of one lattice beside a border: made of the centers of triangles, which they share, or cut out.
 #[test]
 fn cells_that_roundings_could_take_across_are_cut_out() {
     // A cell of this size around the middle, its box ending at half of it, and the border a bit further on.

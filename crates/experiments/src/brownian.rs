@@ -24,7 +24,7 @@ const PUBLISHED: [(usize, [f64; 4]); 5] = [
 ];
 /// Mean displacements in mean spacings.
 const SHARES: [f64; 8] = [0.0001, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
-/// The mean distance of a point in the unit disk, and in the unit ball, from the centre.
+/// The mean distance of a point in the unit disk, and in the unit ball, from the center.
 const MEAN_IN_DISK: f64 = 2.0 / 3.0;
 const MEAN_IN_BALL: f64 = 3.0 / 4.0;
 

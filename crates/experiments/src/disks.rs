@@ -14,12 +14,12 @@ use super::table::{Table, short};
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades};
 
-/// The largest set of which neighbourhoods are counted.
+/// The largest set of which neighborhoods are counted.
 const COUNTED: usize = 100_000;
 /// Disks of which instances are compared, and how many of them.
 const COMPARED: usize = 1000;
 const INSTANCES: usize = 100;
-/// Radii of disks whose centres are at least two apart.
+/// Radii of disks whose centers are at least two apart.
 const RADII: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
@@ -42,16 +42,16 @@ fn claims(options: &Options<'_>) -> Result<Table, Error> {
     for n in decades(1000, options.largest.min(COUNTED)) {
         let [mut most, mut mean, mut degree, mut sum] = <[Trials; 4]>::default();
         for seed in options.seeds() {
-            let centres = Kind::Disks.points(n, seed);
-            let instance = moved(&centres, 1.0, &mut Random::new(seed + 1000));
-            let of_centres = Delaunay2::from_points(&centres)?;
+            let centers = Kind::Disks.points(n, seed);
+            let instance = moved(&centers, 1.0, &mut Random::new(seed + 1000));
+            let of_centers = Delaunay2::from_points(&centers)?;
             let d = Delaunay2::from_points(&instance)?;
             let degree_of = |v: VertexId| d.mesh().star(v).count() as f64;
             let mut held = vec![0_u32; n];
             let (mut hints, mut sums) = (0.0, 0.0);
-            for (i, &p) in centres.iter().enumerate() {
-                let nearest = of_centres.k_nearest(p, 2)?[1];
-                let q = of_centres.point(nearest);
+            for (i, &p) in centers.iter().enumerate() {
+                let nearest = of_centers.k_nearest(p, 2)?[1];
+                let q = of_centers.point(nearest);
                 hints += degree_of(nearest);
                 for v in d.within(p, (p[0] - q[0]).hypot(p[1] - q[1]) + 1.0)? {
                     sums += degree_of(v);
@@ -74,7 +74,7 @@ fn claims(options: &Options<'_>) -> Result<Table, Error> {
 fn crossed(options: &Options<'_>) -> Result<Table, Error> {
     let mut table = options.table(
         "disks-crossed",
-        "Disks, centres at least two apart: edges between a point and its hint before it comes and after, a point, and those after \
+        "Disks, centers at least two apart: edges between a point and its hint before it comes and after, a point, and those after \
          it without an end in D(p), in all (Lemma 2: none)",
         &["points", "radius", "crossed before", "crossed after", "without an end in D(p)"],
     );
@@ -82,18 +82,18 @@ fn crossed(options: &Options<'_>) -> Result<Table, Error> {
         let mut counts: [Trials; 2] = Default::default();
         let mut without = 0_u64;
         for seed in options.seeds() {
-            let centres = Kind::Disks.points(n, seed);
-            let instance = moved(&centres, reach, &mut Random::new(seed + 1000));
-            let hints = Hints2::from_points(&centres, HintOrder::Random { seed })?;
+            let centers = Kind::Disks.points(n, seed);
+            let instance = moved(&centers, reach, &mut Random::new(seed + 1000));
+            let hints = Hints2::from_points(&centers, HintOrder::Random { seed })?;
             let mut d = Delaunay2::new();
             let mut totals = [0_u32; 2];
             for (i, j) in hints.order().zip(hints.hints()) {
                 let (p, x) = (instance[i], instance[j]);
                 totals[0] += across(&d, p, x).count() as u32;
                 d.insert(p)?;
-                let [centre, other] = [centres[i], centres[j]];
-                let radius = (centre[0] - other[0]).hypot(centre[1] - other[1]) + reach;
-                let is_in = |q: [f64; 2]| (q[0] - centre[0]).hypot(q[1] - centre[1]) <= radius;
+                let [center, other] = [centers[i], centers[j]];
+                let radius = (center[0] - other[0]).hypot(center[1] - other[1]) + reach;
+                let is_in = |q: [f64; 2]| (q[0] - center[0]).hypot(q[1] - center[1]) <= radius;
                 for [a, b] in across(&d, p, x) {
                     totals[1] += 1;
                     without += u64::from(!is_in(a) && !is_in(b));
@@ -115,30 +115,30 @@ fn across(d: &Delaunay2, p: [f64; 2], q: [f64; 2]) -> impl Iterator<Item = [[f64
 }
 
 /// Triangles visited a point by hints in random order.
-fn visited(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<(f64, bool), Refusal> {
+fn visited(centers: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<(f64, bool), Refusal> {
     let mut work = Work::default();
-    let mut hints = Hints2::from_points(centres, HintOrder::Random { seed })?;
+    let mut hints = Hints2::from_points(centers, HintOrder::Random { seed })?;
     hints.triangulate_observed(instance, &mut work)?;
-    Ok((work.visited as f64 / centres.len() as f64, hints.gave_up()))
+    Ok((work.visited as f64 / centers.len() as f64, hints.gave_up()))
 }
 
 /// Tetrahedra visited, in space.
-fn visited_in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<f64, Refusal> {
+fn visited_in_space(centers: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<f64, Refusal> {
     let mut work = Work::default();
-    Hints3::from_points(centres, HintOrder::Random { seed })?.triangulate_observed(instance, &mut work)?;
-    Ok(work.visited as f64 / centres.len() as f64)
+    Hints3::from_points(centers, HintOrder::Random { seed })?.triangulate_observed(instance, &mut work)?;
+    Ok(work.visited as f64 / centers.len() as f64)
 }
 
 /// Unit disks and balls that grow until they overlap: the cost is O(k n) if k of them have a point in common.
 fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut table = options.table(
         "disks-overlap",
-        "Disks and balls, centres at least two apart: visited a point by the radius",
+        "Disks and balls, centers at least two apart: visited a point by the radius",
         &[
             "disks",
             "balls",
             "radius",
-            "disks over a centre, at most",
+            "disks over a center, at most",
             "visited",
             "visited / k",
             "visited in space",
@@ -156,14 +156,14 @@ fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
         let mut most = 0;
         for seed in options.seeds() {
             let mut random = Random::new(seed + 1000);
-            let centres = Kind::Disks.points(n, seed);
-            in_plane.add(visited(&centres, &moved(&centres, radius, &mut random), seed)?.0);
-            let d = Delaunay2::from_points(&centres)?;
-            for &p in centres.iter().take(1000) {
+            let centers = Kind::Disks.points(n, seed);
+            in_plane.add(visited(&centers, &moved(&centers, radius, &mut random), seed)?.0);
+            let d = Delaunay2::from_points(&centers)?;
+            for &p in centers.iter().take(1000) {
                 most = most.max(d.within(p, radius)?.len());
             }
-            let centres = Kind3::Balls.points(m, seed);
-            in_space.add(visited_in_space(&centres, &moved(&centres, radius, &mut random), seed)?);
+            let centers = Kind3::Balls.points(m, seed);
+            in_space.add(visited_in_space(&centers, &moved(&centers, radius, &mut random), seed)?);
         }
         table.row([
             n.to_string(),
@@ -186,13 +186,13 @@ fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
     Ok(())
 }
 
-/// Disjoint disks of very different radii: each reaches a random share of the way to the middle between its centre and
+/// Disjoint disks of very different radii: each reaches a random share of the way to the middle between its center and
 /// the nearest other one. The paper leaves their analysis open.
 fn radii(options: &Options<'_>) -> Result<Table, Error> {
     let mut table = options.table(
         "disks-radii",
         "Disjoint disks of different radii: visited a point",
-        &["centres", "points", "largest / smallest radius", "visited"],
+        &["centers", "points", "largest / smallest radius", "visited"],
     );
     for kind in [Kind::Uniform, Kind::Clusters, Kind::LogNormal, Kind::HugeSpan] {
         for n in decades(1000, options.largest.min(COUNTED)) {
@@ -200,10 +200,10 @@ fn radii(options: &Options<'_>) -> Result<Table, Error> {
             let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
             for seed in options.seeds() {
                 let mut random = Random::new(seed + 1000);
-                let centres = kind.points(n, seed);
-                let d = Delaunay2::from_points(&centres)?;
+                let centers = kind.points(n, seed);
+                let d = Delaunay2::from_points(&centers)?;
                 let mut instance = Vec::with_capacity(n);
-                for &p in &centres {
+                for &p in &centers {
                     let near = d.k_nearest(p, 2)?;
                     let q = near.get(1).map_or(p, |&v| d.point(v));
                     let radius = random.unit() * (p[0] / 2.0 - q[0] / 2.0).hypot(p[1] / 2.0 - q[1] / 2.0);
@@ -211,7 +211,7 @@ fn radii(options: &Options<'_>) -> Result<Table, Error> {
                     let shift: [f64; 2] = in_ball(&mut random);
                     instance.push([p[0] + radius * shift[0], p[1] + radius * shift[1]]);
                 }
-                counts.add(visited(&centres, &instance, seed)?.0);
+                counts.add(visited(&centers, &instance, seed)?.0);
             }
             let span = (most / least.max(f64::MIN_POSITIVE)).min(f64::MAX);
             table.row([kind.name().to_owned(), n.to_string(), format!("{span:.0e}"), counts.to_string()]);
@@ -228,12 +228,12 @@ fn misled(options: &Options<'_>) -> Result<Table, Error> {
         &["points", "visited", "in n", "given up"],
     );
     for n in [51, 101, 201, 401, 601, 801, 1201] {
-        let centres = Kind::Nested.points(n, 0);
+        let centers = Kind::Nested.points(n, 0);
         let instance = Kind::NestedInstance.points(n, 0);
         let mut counts = Trials::default();
         let mut given_up = 0;
         for seed in options.seeds() {
-            let (count, gave_up) = visited(&centres, &instance, seed)?;
+            let (count, gave_up) = visited(&centers, &instance, seed)?;
             counts.add(count);
             given_up += usize::from(gave_up);
         }
@@ -249,20 +249,20 @@ fn edges(options: &Options<'_>) -> Result<Table, Error> {
     let mut table = options.table(
         "disks-edges",
         &format!(
-            "{n} disks, centres at least two apart: edges a point in every, all of 100, any of 100, and some instance"
+            "{n} disks, centers at least two apart: edges a point in every, all of 100, any of 100, and some instance"
         ),
         &["radius", "certain", "in all of 100", "in any of 100", "possible"],
     );
     for radius in [0.0, 0.0625, 0.125, 0.25, 0.5, 1.0] {
         let mut counts = <[Trials; 4]>::default();
         for seed in options.seeds() {
-            let centres = Kind::Disks.points(n, seed);
-            let of_centres = Delaunay2::from_points(&centres)?;
-            let edges = of_centres.disk_edges(radius)?;
+            let centers = Kind::Disks.points(n, seed);
+            let of_centers = Delaunay2::from_points(&centers)?;
+            let edges = of_centers.disk_edges(radius)?;
             let mut random = Random::new(seed + 1000);
             let mut seen: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
             for _ in 0..INSTANCES {
-                let instance = Delaunay2::from_points(&moved(&centres, radius, &mut random))?;
+                let instance = Delaunay2::from_points(&moved(&centers, radius, &mut random))?;
                 for [v, w] in instance.edges() {
                     *seen.entry([v.min(w), v.max(w)]).or_default() += 1;
                 }

@@ -31,7 +31,7 @@ const WALKING: usize = 5;
 const STRAIGHT: [&str; 2] = ["one Hilbert curve, straight", "spatial sort, straight"];
 
 /// The paper's figures for a number of points: nanoseconds a point by the methods above without our sample (the last is Triangle),
-/// triangles visited, nanoseconds to preprocess, and instances that amortise it.
+/// triangles visited, nanoseconds to preprocess, and instances that amortize it.
 struct Published {
     points: usize,
     ns: &'static [f64],
@@ -113,9 +113,9 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         let mut row = Row::default();
         for trial in trials(options, n) {
             let seed = options.seed + trial;
-            let centres = Kind::Disks.points(n, seed);
-            let instance = moved(&centres, 1.0, &mut Random::new(seed + 1));
-            in_plane(&centres, &instance, seed, &mut row)?;
+            let centers = Kind::Disks.points(n, seed);
+            let instance = moved(&centers, 1.0, &mut Random::new(seed + 1));
+            in_plane(&centers, &instance, seed, &mut row)?;
         }
         plane.row(n, row);
     }
@@ -126,9 +126,9 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         let mut row = Row::default();
         for trial in trials(options, n) {
             let seed = options.seed + trial;
-            let centres = Kind3::Balls.points(n, seed);
-            let instance = moved(&centres, 1.0, &mut Random::new(seed + 1));
-            in_space(&centres, &instance, seed, &mut row)?;
+            let centers = Kind3::Balls.points(n, seed);
+            let instance = moved(&centers, 1.0, &mut Random::new(seed + 1));
+            in_space(&centers, &instance, seed, &mut row)?;
         }
         space.row(n, row);
     }
@@ -158,18 +158,18 @@ pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
         let mut row = Row::default();
         for _ in trials(options, n) {
             random.shuffle(&mut model);
-            let centres = &model[..n];
-            let hints = Hints3::from_points(centres, HintOrder::Spatial { seed })?;
+            let centers = &model[..n];
+            let hints = Hints3::from_points(centers, HintOrder::Spatial { seed })?;
             let far = hints.order().zip(hints.hints()).skip(1).map(|(i, j)| {
-                let square: f64 = (0..3).map(|k| (centres[i][k] - centres[j][k]).powi(2)).sum();
+                let square: f64 = (0..3).map(|k| (centers[i][k] - centers[j][k]).powi(2)).sum();
                 square.sqrt()
             });
             let radius = far.sum::<f64>() / n as f64;
-            let instance = moved(centres, radius, &mut random);
+            let instance = moved(centers, radius, &mut random);
             if instance.iter().flatten().any(|x| !x.is_finite()) {
                 return Err(Error::WideModel);
             }
-            in_space(centres, &instance, seed, &mut row)?;
+            in_space(centers, &instance, seed, &mut row)?;
         }
         report.row(n, row);
     }
@@ -196,7 +196,7 @@ impl<'a> Report<'a> {
         methods: &'a [&'a str],
         published: &'a [Published],
     ) -> Self {
-        let heads = [&["points"], methods, &["preprocessing", "instances to amortise"]].concat();
+        let heads = [&["points"], methods, &["preprocessing", "instances to amortize"]].concat();
         let times = format!("{title}: nanoseconds a point");
         let visits = format!("{title}: visited a point");
         let in_plane = methods.len() > WALKING;
@@ -308,11 +308,11 @@ fn hilbert(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     sorted
 }
 
-fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64, row: &mut Row) -> Result<(), Error> {
-    let n = centres.len();
+fn in_plane(centers: &[[f64; 2]], instance: &[[f64; 2]], seed: u64, row: &mut Row) -> Result<(), Error> {
+    let n = centers.len();
     let [random, spatial, direct @ ..] = &mut row.costs;
     for (order, cost) in [(HintOrder::Random { seed }, random), (HintOrder::Spatial { seed }, spatial)] {
-        let (hints, seconds) = timed(|| Hints2::from_points(centres, order));
+        let (hints, seconds) = timed(|| Hints2::from_points(centers, order));
         if matches!(order, HintOrder::Spatial { .. }) {
             row.preprocessing.add(seconds * 1e9 / n as f64);
         }
@@ -333,11 +333,11 @@ fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64, row: &mut Ro
     Ok(())
 }
 
-fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64, row: &mut Row) -> Result<(), Error> {
-    let n = centres.len();
+fn in_space(centers: &[[f64; 3]], instance: &[[f64; 3]], seed: u64, row: &mut Row) -> Result<(), Error> {
+    let n = centers.len();
     let [random, spatial, direct @ ..] = &mut row.costs;
     for (order, cost) in [(HintOrder::Random { seed }, random), (HintOrder::Spatial { seed }, spatial)] {
-        let (hints, seconds) = timed(|| Hints3::from_points(centres, order));
+        let (hints, seconds) = timed(|| Hints3::from_points(centers, order));
         if matches!(order, HintOrder::Spatial { .. }) {
             row.preprocessing.add(seconds * 1e9 / n as f64);
         }

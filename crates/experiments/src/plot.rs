@@ -82,11 +82,11 @@ impl Plot {
             .label_style(("sans-serif", 14))
             .draw()?;
         for (i, (name, points)) in self.curves.iter().enumerate() {
-            let colour = COLOURS[i % COLOURS.len()];
+            let color = COLOURS[i % COLOURS.len()];
             chart
-                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)).point_size(3))?
+                .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)).point_size(3))?
                 .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
         }
         chart
             .configure_series_labels()

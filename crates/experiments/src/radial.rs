@@ -32,7 +32,7 @@ fn uniform(n: usize, seed: u64) -> Vec<[f64; 2]> {
     Kind::Uniform.points(n, seed)
 }
 
-/// Sites on a circle, and one in its middle that has all others for neighbours: here a plane is not searched in O(1).
+/// Sites on a circle, and one in its middle that has all others for neighbors: here a plane is not searched in O(1).
 fn hub(n: usize, seed: u64) -> Vec<[f64; 2]> {
     let mut points = Kind::UnitCircle.points(n - 1, seed);
     points.push([0.0, 0.0]);
@@ -134,7 +134,7 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Theorem 5.3: a new site is a random one, and the nearest before it has O(1) neighbours on average, so its search in each of
+/// Theorem 5.3: a new site is a random one, and the nearest before it has O(1) neighbors on average, so its search in each of
 /// O(log n) planes takes O(1).
 fn building(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let title = "Sites added in random order to the history of radial triangles: comparisons and rays to locate one (O(log n))";

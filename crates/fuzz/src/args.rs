@@ -69,7 +69,7 @@ pub(crate) enum Mode {
     Orders,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
-    /// Gabriel graphs, relative neighbours, spanning trees, skeletons, k nearest.
+    /// Gabriel graphs, relative neighbors, spanning trees, skeletons, k nearest.
     Proximity,
     /// Predicates and filters on hostile operands.
     Predicates,

@@ -131,15 +131,15 @@ fn shaped<const D: usize>(random: &mut Random, which: usize, range: usize, step:
         9 => {
             let mut numbers =
                 [integer(random, 3 * range), integer(random, 3 * range), integer(random, range)];
-            let centre = integer(random, range);
+            let center = integer(random, range);
             Box::new(move |r| {
                 r.shuffle(&mut numbers);
-                let mut p = [centre; D];
+                let mut p = [center; D];
                 for (x, y) in p.iter_mut().zip(numbers) {
                     let y = signed(r, y);
                     *x += y * step;
                 }
-                if once_in(r, 12) { [centre; D] } else { p }
+                if once_in(r, 12) { [center; D] } else { p }
             })
         }
         // On a line, exactly or nearly.

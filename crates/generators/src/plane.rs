@@ -13,7 +13,7 @@ kinds! {
     LogNormal = "lognormal", |n, r| repeat(n, || [libm::exp(r.normal()), libm::exp(r.normal())]);
     /// Uniform in the unit square, and ten points up to a billion times as far away.
     Outliers = "outliers", outliers;
-    /// Centres of disjoint unit disks, at distance above 2, in a square of side 4 sqrt(n).
+    /// Centers of disjoint unit disks, at distance above 2, in a square of side 4 sqrt(n).
     Disks = "disks", disks;
     /// A hundred normal clusters.
     Clusters = "clusters", clusters;
@@ -60,7 +60,7 @@ kinds! {
     }).collect();
     /// Three concentric circles and two crossing lines on integers: symmetric in many ways.
     Spokes = "spokes", spokes;
-    /// Centres of disks of falling radii that overlap two by two (Devillers 2011, §6.2).
+    /// Centers of disks of falling radii that overlap two by two (Devillers 2011, §6.2).
     Nested = "nested", |n, _| nested(n, false);
     /// An instance of `nested`, row by row, for which hints mislead.
     NestedInstance = "nested-instance", |n, _| nested(n, true);
@@ -166,9 +166,9 @@ fn disks(n: usize, random: &mut Random) -> Vec<Point2> {
 }
 
 fn clusters(n: usize, random: &mut Random) -> Vec<Point2> {
-    let centres = repeat(100, || [random.unit(), random.unit()]);
+    let centers = repeat(100, || [random.unit(), random.unit()]);
     repeat(n, || {
-        let [x, y] = centres[random.below(100)];
+        let [x, y] = centers[random.below(100)];
         [x + 0.005 * random.normal(), y + 0.005 * random.normal()]
     })
 }
@@ -221,7 +221,7 @@ fn spokes(n: usize, random: &mut Random) -> Vec<Point2> {
 }
 
 /// Pairs (x, s) and (x, -s), s falling by tenths while there is room for it; the first point is to the right of all.
-/// With x = 2 s they are the centres of disks of radius 2.1 s. These hold points near the axis: on a parabola so narrow
+/// With x = 2 s they are the centers of disks of radius 2.1 s. These hold points near the axis: on a parabola so narrow
 /// that the first point is joined to all others, and a walk from one of a pair to the other crosses all that fan.
 fn nested(n: usize, is_instance: bool) -> Vec<Point2> {
     let levels = n / 2;

@@ -11,16 +11,16 @@ kinds! {
     Ball = "ball", |n, r| repeat(n, || in_ball(r));
     /// On the unit sphere, rounded: nearly cospherical.
     Sphere = "sphere", |n, r| repeat(n, || on_sphere(r));
-    /// Centres of disjoint unit balls, at distance above 2, in a cube of side 4 n^(1/3).
+    /// Centers of disjoint unit balls, at distance above 2, in a cube of side 4 n^(1/3).
     Balls = "balls", balls;
     /// The cubic integer grid, in random order: every cell is cospherical.
     Grid3 = "grid3", grid;
     /// A hundred normal clusters.
     Clusters3 = "clusters3", |n, r| {
-        let centres: Vec<Point3> = repeat(100, || [r.unit(), r.unit(), r.unit()]);
+        let centers: Vec<Point3> = repeat(100, || [r.unit(), r.unit(), r.unit()]);
         repeat(n, || {
-            let centre = centres[r.below(100)];
-            centre.map(|x| x + 0.01 * r.normal())
+            let center = centers[r.below(100)];
+            center.map(|x| x + 0.01 * r.normal())
         })
     };
     /// Ten horizontal layers of random points.
@@ -104,7 +104,7 @@ fn grid(n: usize, random: &mut Random) -> Vec<Point3> {
     points
 }
 
-/// Rejects candidates that are too near to one before: those in the neighbouring cells of a lattice.
+/// Rejects candidates that are too near to one before: those in the neighboring cells of a lattice.
 fn balls(n: usize, random: &mut Random) -> Vec<Point3> {
     let side = 4.0 * libm::cbrt(n as f64).max(1.0);
     let cells = (side / 2.0).floor().max(1.0) as usize;

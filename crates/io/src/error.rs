@@ -94,9 +94,9 @@ pub enum Error {
         /// The feature of the crate that has it.
         feature: &'static str,
     },
-    /// The circumcentre of a triangle is no finite number.
-    #[error("the circumcentre of triangle {triangle} is too far away to be written")]
-    FarCentre {
+    /// The circumcenter of a triangle is no finite number.
+    #[error("the circumcenter of triangle {triangle} is too far away to be written")]
+    FarCenter {
         /// Its number in the `.ele` file.
         triangle: usize,
     },
@@ -178,7 +178,7 @@ impl Error {
             Self::LeftOut { .. } => {
                 "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
             }
-            Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
+            Self::FarCenter { .. } => "leave out such flat triangles, or the Voronoi diagram",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
             Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
             Self::Rows { .. } => "give the values of whole rows, as many as the raster has",

@@ -49,7 +49,7 @@ pub enum Format {
     Area,
     /// Triangle's triangles.
     Ele,
-    /// Triangle's neighbours.
+    /// Triangle's neighbors.
     Neigh,
     /// Triangle's edges.
     Edge,

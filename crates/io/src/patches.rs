@@ -68,7 +68,7 @@ impl Patches {
         })
     }
 
-    /// Each polygon in a colour of its own; points beside all triangles as dots.
+    /// Each polygon in a color of its own; points beside all triangles as dots.
     fn sketch(&self) -> Sketch {
         let corners = |triangle: &[usize; 3]| triangle.map(|i| self.points[i]);
         let patches = self.triangles.iter().zip(&self.polygons);

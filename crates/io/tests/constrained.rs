@@ -191,7 +191,7 @@ fn geometries_are_those_of_geojson() {
 fn pictures_show_constraints_and_regions() {
     let scene = Scene::new();
     let svg = scene.text(Format::Svg);
-    // Two regions, two colours; the lines of constraints are heavier than all others.
+    // Two regions, two colors; the lines of constraints are heavier than all others.
     let fills: std::collections::BTreeSet<&str> =
         svg.match_indices("<path fill=\"#").map(|(at, _)| &svg[at + 12..at + 19]).collect();
     assert_eq!((fills.len(), svg.matches("<path fill=\"#").count()), (2, 16));

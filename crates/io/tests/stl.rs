@@ -85,7 +85,7 @@ fn what_became_flat_or_turned_over_is_left_out_of_surfaces() {
 #[test]
 fn closed_surfaces_stay_closed() {
     let mut points = Kind3::Sphere.points(400, 5);
-    // Neighbours that single precision does not tell apart, or hardly.
+    // Neighbors that single precision does not tell apart, or hardly.
     let near: Vec<_> =
         points.iter().take(60).enumerate().map(|(i, p)| p.map(|x| x * (1.0 + 1e-9 * i as f64))).collect();
     let beside: Vec<_> = points.iter().skip(60).take(60).map(|&[x, y, z]| [x + 3e-8, y - 3e-8, z]).collect();

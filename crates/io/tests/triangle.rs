@@ -146,7 +146,7 @@ fn paraview_sees_six_nodes() {
 /// The files of a Voronoi diagram, as tables.
 fn voronoi<T: Triangulation<Point = [f64; 2]>>(mesh: &Mesh<T>) -> [(String, Vec<Vec<f64>>); 2] {
     let (mut nodes, mut edges) = (Vec::new(), Vec::new());
-    write_voronoi_node(&mut nodes, mesh).expect("near centres");
+    write_voronoi_node(&mut nodes, mesh).expect("near centers");
     write_voronoi_edge(&mut edges, mesh).expect("memory takes it");
     [nodes, edges].map(|bytes| {
         let text = String::from_utf8(bytes).expect("text");
@@ -173,7 +173,7 @@ fn voronoi_edges_are_dual_to_edges() {
                 |k: usize| (point(triangle[k])[0] - node[1]).hypot(point(triangle[k])[1] - node[2]);
             let radius = distance(1);
             assert!([2, 3].iter().all(|&k| (distance(k) - radius).abs() <= 1e-9 * radius), "{name}");
-            // The first attribute is linear in the place, so it is at the centre what it is anywhere.
+            // The first attribute is linear in the place, so it is at the center what it is anywhere.
             let expected = 2.0 * node[1] - 3.0 * node[2] + 1.0;
             let size = node[1].abs() + node[2].abs() + radius + 1.0;
             assert!((node[3] - expected).abs() <= 1e-6 * size, "{name}: {} is not {expected}", node[3]);
@@ -215,7 +215,7 @@ fn voronoi_diagrams_at_the_limits() {
     let d = Delaunay2::from_points(&far).expect("finite");
     let mesh = Mesh { base: 1, ..Mesh::new(&d, &far) };
     let mut bytes = Vec::new();
-    assert!(matches!(write_voronoi_node(&mut bytes, &mesh), Err(Error::FarCentre { triangle: 1 })));
+    assert!(matches!(write_voronoi_node(&mut bytes, &mesh), Err(Error::FarCenter { triangle: 1 })));
     assert!(bytes.is_empty());
     // A ray across an edge that is longer than any number.
     let long = [[-1.5e308, 0.0], [1.5e308, 0.0], [0.0, 1e308]];

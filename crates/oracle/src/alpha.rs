@@ -2,7 +2,7 @@
 //! sizes are fractions of determinants of scalar products.
 //!
 //! With u the corners as seen from the last one, G their scalar products and h their squared lengths less differences of weights,
-//! the squared distance of the centre from that corner is h G^-1 h / 4, a quotient of a bordered determinant and that of G.
+//! the squared distance of the center from that corner is h G^-1 h / 4, a quotient of a bordered determinant and that of G.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

@@ -65,7 +65,7 @@ fn rounds_to([a, b]: [Point2; 2], p: Point2) -> bool {
     if (0..2).any(|k| p[k] < a[k].min(b[k]) || p[k] > a[k].max(b[k])) {
         return false;
     }
-    // All doubled, so that the middles between neighbours are integers; none of these is infinite in a box of numbers
+    // All doubled, so that the middles between neighbors are integers; none of these is infinite in a box of numbers
     // but for the largest, whose cell goes as far up as down.
     let beside = |x: f64| [x.next_down(), x.next_up()].map(|y| if y.is_finite() { y } else { x });
     let [below, above] = [0, 1].map(|side| p.map(|x| beside(x)[side]));
@@ -348,7 +348,7 @@ mod tests {
         assert_eq!(split.covering([0, 5]), [(0, true), (3, false)]);
     }
 
-    /// Neighbouring doubles: chains collapse onto what is there, and rounds follow rounds.
+    /// Neighboring doubles: chains collapse onto what is there, and rounds follow rounds.
     #[test]
     fn nothing_crosses_in_the_end() {
         let mut numbers = Numbers(7);

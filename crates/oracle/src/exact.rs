@@ -170,8 +170,8 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> i8 {
     sign(&(squared - p[2][0].pow(2)))
 }
 
-/// The circumcentre of o, a, b relative to o, times a positive number, for o, a, b counter-clockwise.
-fn centre(o: &[BigInt], a: &[BigInt], b: &[BigInt]) -> [BigInt; 2] {
+/// The circumcenter of o, a, b relative to o, times a positive number, for o, a, b counter-clockwise.
+fn center(o: &[BigInt], a: &[BigInt], b: &[BigInt]) -> [BigInt; 2] {
     // It is where c.u = |u|^2 / 2 and c.v = |v|^2 / 2, by Cramer's rule.
     let u = [&a[0] - &o[0], &a[1] - &o[1]];
     let v = [&b[0] - &o[0], &b[1] - &o[1]];
@@ -179,17 +179,17 @@ fn centre(o: &[BigInt], a: &[BigInt], b: &[BigInt]) -> [BigInt; 2] {
     [&uu * &v[1] - &u[1] * &vv, &u[0] * &vv - &uu * &v[0]]
 }
 
-/// On which side of the line from o through the circumcentre of o, a, b a point is.
-pub fn centre_side(o: Point2, a: Point2, b: Point2, q: Point2) -> i8 {
+/// On which side of the line from o through the circumcenter of o, a, b a point is.
+pub fn center_side(o: Point2, a: Point2, b: Point2, q: Point2) -> i8 {
     let p = integers(&[o, a, b, q]);
-    let [x, y] = centre(&p[0], &p[1], &p[2]);
+    let [x, y] = center(&p[0], &p[1], &p[2]);
     sign(&(x * (&p[3][1] - &p[0][1]) - y * (&p[3][0] - &p[0][0])))
 }
 
-/// The signs of the circumcentre of o, a, b relative to o.
-pub fn centre_direction(o: Point2, a: Point2, b: Point2) -> [i8; 2] {
+/// The signs of the circumcenter of o, a, b relative to o.
+pub fn center_direction(o: Point2, a: Point2, b: Point2) -> [i8; 2] {
     let p = integers(&[o, a, b]);
-    centre(&p[0], &p[1], &p[2]).map(|x| sign(&x))
+    center(&p[0], &p[1], &p[2]).map(|x| sign(&x))
 }
 
 /// Whether the closed disk through o, a, b, which are not collinear, is in the inside of a box. Sides may be infinite.
@@ -203,9 +203,9 @@ pub fn circle_is_within([o, a, b]: [Point2; 3], low: Point2, high: Point2) -> bo
             let p = integers(&[o, a, b, [side, side]]);
             let from_o = |i: usize| [&p[i][0] - &p[0][0], &p[i][1] - &p[0][1]];
             let (u, v) = (from_o(1), from_o(2));
-            // The centre is c / d, and the square of the radius |c|^2 / d^2.
+            // The center is c / d, and the square of the radius |c|^2 / d^2.
             let d = (&u[0] * &v[1] - &u[1] * &v[0]) * 2;
-            let c = centre(&p[0], &p[1], &p[2]);
+            let c = center(&p[0], &p[1], &p[2]);
             let apart: BigInt = ((&p[3][k] - &p[0][k]) * d - &c[k]) * outward;
             apart > BigInt::ZERO && apart.pow(2) > c[0].pow(2) + c[1].pow(2)
         })
@@ -223,7 +223,7 @@ pub fn sphere_is_within([o, a, b, c]: [Point3; 4], low: Point3, high: Point3) ->
             let p = integers(&[o, a, b, c, [side; 3]]);
             let from_o = |i: usize| (0..3).map(|k| &p[i][k] - &p[0][k]).collect::<Vec<BigInt>>();
             let rows = [1, 2, 3].map(from_o);
-            // The centre is x / d, where x.u = d |u|^2 / 2 for each row u, by Cramer's rule; the square of the radius |x|^2 / d^2.
+            // The center is x / d, where x.u = d |u|^2 / 2 for each row u, by Cramer's rule; the square of the radius |x|^2 / d^2.
             let squares = [0, 1, 2].map(|i| rows[i].iter().map(|u| u.pow(2)).sum::<BigInt>());
             let with_squares = |k: usize| {
                 let mut rows = rows.clone();

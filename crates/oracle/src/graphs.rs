@@ -64,7 +64,7 @@ pub fn relative_neighbors<const D: usize>(points: &[[f64; D]]) -> Pairs {
     sites.unless(|i, j, k| sites.squared(i, k).max(sites.squared(j, k)) < sites.squared(i, j))
 }
 
-/// Pairs whose open lune holds no other point: the meeting of two balls of radius beta |ij| / 2, with centres
+/// Pairs whose open lune holds no other point: the meeting of two balls of radius beta |ij| / 2, with centers
 /// (1 - beta/2) i + (beta/2) j and the same with i and j exchanged. For beta = 1 it is [`gabriel`].
 pub fn beta_skeleton<const D: usize>(points: &[[f64; D]], beta: f64) -> Pairs {
     if beta == 1.0 {

@@ -95,9 +95,9 @@ pub fn meet_near(first: Line, second: Line, place: Point2, error: [f64; 2]) -> O
 /// Whether each coordinate of a point is the nearest `f64` of where two lines meet, of two at one distance the even one. `None` for
 /// parallel lines.
 pub fn meet_nearest_to(first: Line, second: Line, place: Point2) -> Option<[bool; 2]> {
-    let neighbours = [place.map(f64::next_down), place.map(f64::next_up)];
+    let neighbors = [place.map(f64::next_down), place.map(f64::next_up)];
     // What is beyond the largest number is as far away as another step.
-    let steps = Line::Through(neighbours[0].map(|x| x.max(f64::MIN)), neighbours[1].map(|x| x.min(f64::MAX)));
+    let steps = Line::Through(neighbors[0].map(|x| x.max(f64::MIN)), neighbors[1].map(|x| x.min(f64::MAX)));
     let points = scaled(&[first, second, Line::Through(place, place), steps]);
     let (at, below) = meeting([&first, &second], &points)?;
     let ([here, _], [low, high]) = (&points[2], &points[3]);

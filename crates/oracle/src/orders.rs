@@ -92,7 +92,7 @@ mod tests {
 
     /// Five points, two of them inside: counted by hand.
     #[test]
-    fn a_square_and_its_centre() {
+    fn a_square_and_its_center() {
         let circles = Circles::new(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]]);
         let first = circles.order(1);
         assert_eq!((first.regions.len(), first.unbounded.len(), first.circles.len()), (5, 4, 4));

@@ -56,7 +56,7 @@ pub(crate) fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D
 
 /// Whether each coordinate of a point is the nearest `f64` of the point with the same power to three sites, of two at one distance
 /// the even one. False for collinear sites.
-pub fn has_nearest_centre(sites: [Site<2>; 3], place: [f64; 2]) -> bool {
+pub fn has_nearest_center(sites: [Site<2>; 3], place: [f64; 2]) -> bool {
     // What is beyond the largest number is as far away as another step.
     let [low, high] = [place.map(|x| x.next_down().max(f64::MIN)), place.map(|x| x.next_up().min(f64::MAX))];
     let [a, b, c] = sites;

@@ -54,13 +54,13 @@ fn passes(a: Point2, b: Point2, v: Point2) -> bool {
     let mut from: Bound = (BigInt::ZERO, BigInt::from(1), true);
     let mut to: Bound = (BigInt::from(1), BigInt::from(1), true);
     for k in 0..2 {
-        // The neighbour of the largest number is as far away as the other one.
+        // The neighbor of the largest number is as far away as the other one.
         let finite = |x: f64| if x.is_finite() { x } else { v[k] };
         let (numbers, _) =
             big::integers(&[a[k], b[k], v[k], finite(v[k].next_down()), finite(v[k].next_up())]);
         let [p, q, middle, below, above] = &numbers[..] else { return false };
-        let step = |neighbour: &BigInt, other: &BigInt| {
-            if neighbour == middle { (middle + middle) - other } else { neighbour.clone() }
+        let step = |neighbor: &BigInt, other: &BigInt| {
+            if neighbor == middle { (middle + middle) - other } else { neighbor.clone() }
         };
         // Everything doubled: the borders of the cell are between numbers.
         let (low, high) = (middle + step(below, above), middle + step(above, below));
@@ -99,7 +99,7 @@ mod tests {
         let (one, up) = (1.0, 1.0_f64.next_up());
         let level = |y: f64, v: f64| segment_rounds_to([0.0, y], [4.0, y], [2.0, v]);
         assert!(level(one, one) && !level(one, up) && !level(up, one) && level(up, up));
-        // From one number to its neighbour, through the middle between them in the middle of the way: a tie, to the even one.
+        // From one number to its neighbor, through the middle between them in the middle of the way: a tie, to the even one.
         let slope = |x: f64, v: f64| segment_rounds_to([0.0, one], [4.0, up], [x, v]);
         assert!(slope(2.0, one) && slope(1.0, one) && !slope(3.0, one));
         assert!(!slope(1.0, up) && slope(3.0, up));

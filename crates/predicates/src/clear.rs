@@ -3,9 +3,9 @@
 //! Those who ask lose only time if a clear sphere is not seen to be clear, so there is no exact stage: floating point with
 //! a proven bound.
 //!
-//! Let m be the largest difference of a coordinate, u = 2^-53, the first corner the origin. The centre is N / D with
+//! Let m be the largest difference of a coordinate, u = 2^-53, the first corner the origin. The center is N / D with
 //! |N| <= 18 m^4 and |D| <= 12 m^3; rounding puts N off by at most 220 u m^4 and D by 100 u m^3, so while
-//! |D| >= 2^-30 m^3 a coordinate c of the centre is off by e <= u (256 m + 128 |c|) m^3 / |D|. Distance and radius are
+//! |D| >= 2^-30 m^3 a coordinate c of the center is off by e <= u (256 m + 128 |c|) m^3 / |D|. Distance and radius are
 //! then off by less than 2 e + 16 u of themselves each.
 //!
 //! With weights, of which any two corners differ by at most v: |N| <= 18 m^2 (m^2 + v), off by at most 240 u m^2 (m^2 + v), and
@@ -34,19 +34,19 @@ pub(crate) const SIZES: std::ops::Range<f64> = 6.2e-61..1.6e60;
 #[must_use]
 #[inline]
 pub fn keeps_clear(corners: [Point3; 4], low: Point3, high: Point3) -> bool {
-    let Some(Sphere { centre, radius, off }) = sphere(corners) else { return false };
+    let Some(Sphere { center, radius, off }) = sphere(corners) else { return false };
     let from = |p: Point3| [0, 1, 2].map(|k| p[k] - corners[0][k]);
     let (low, high) = (from(low), from(high));
-    let beside = [0, 1, 2].map(|k| (low[k] - centre[k]).max(centre[k] - high[k]).max(0.0));
+    let beside = [0, 1, 2].map(|k| (low[k] - center[k]).max(center[k] - high[k]).max(0.0));
     let distance = dot(beside, beside).sqrt();
     distance - radius > 4.0 * off + 32.0 * UNIT * (distance + radius)
 }
 
 /// The sphere of four points, from the first of them.
 pub(crate) struct Sphere {
-    pub(crate) centre: Point3,
+    pub(crate) center: Point3,
     pub(crate) radius: f64,
-    /// How much each coordinate of the centre may be off, terms of the second order left out.
+    /// How much each coordinate of the center may be off, terms of the second order left out.
     pub(crate) off: f64,
 }
 
@@ -66,10 +66,10 @@ pub(crate) fn sphere([a, b, c, d]: [Point3; 4]) -> Option<Sphere> {
         return None;
     }
     let (bb, cc, dd) = (dot(b, b), dot(c, c), dot(d, d));
-    let centre = [0, 1, 2].map(|k| (bb * cd[k] + cc * db[k] + dd * bc[k]) / det);
-    let radius = dot(centre, centre).sqrt();
+    let center = [0, 1, 2].map(|k| (bb * cd[k] + cc * db[k] + dd * bc[k]) / det);
+    let radius = dot(center, center).sqrt();
     let off = UNIT * (256.0 * size + 128.0 * radius) * cube / det.abs();
-    Some(Sphere { centre, radius, off })
+    Some(Sphere { center, radius, off })
 }
 
 /// Tests the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
@@ -100,10 +100,10 @@ pub fn keeps_clear_of_sites([a, b, c, d]: [Site<3>; 4], low: Point3, high: Point
         return false;
     }
     let lifts = [dot(b, b) - heavier[0], dot(c, c) - heavier[1], dot(d, d) - heavier[2]];
-    let centre = [0, 1, 2].map(|k| (lifts[0] * cd[k] + lifts[1] * db[k] + lifts[2] * bc[k]) / det);
+    let center = [0, 1, 2].map(|k| (lifts[0] * cd[k] + lifts[1] * db[k] + lifts[2] * bc[k]) / det);
     let (low, high) = (from(low), from(high));
-    let beside = [0, 1, 2].map(|k| (low[k] - centre[k]).max(centre[k] - high[k]).max(0.0));
-    let (distance, radius) = (dot(beside, beside).sqrt(), dot(centre, centre).sqrt());
+    let beside = [0, 1, 2].map(|k| (low[k] - center[k]).max(center[k] - high[k]).max(0.0));
+    let (distance, radius) = (dot(beside, beside).sqrt(), dot(center, center).sqrt());
     let both = distance + radius;
     let off = UNIT * (256.0 * (size + spread / size) + 128.0 * radius) * cube / det.abs();
     let off = 2.0 * off + 32.0 * UNIT * both;

@@ -10,7 +10,7 @@ use crate::filter::{
     Grid, in_circle_filter, in_circle_of_lengths, in_circle_scaled, in_sphere_filter, in_sphere_scaled,
     orient2d_filter, orient2d_of_lengths, orient2d_scaled, orient3d_filter, orient3d_scaled,
 };
-use crate::{Filter, Filter3, Plane, Point2, Point3, Sign, centre, distance};
+use crate::{Filter, Filter3, Plane, Point2, Point3, Sign, center, distance};
 
 /// Four points in general position, and one inside of their circles and spheres.
 const PLANE: [Point2; 4] = [[0.1, 0.2], [3.3, 0.7], [1.6, 2.9], [1.3, 1.1]];
@@ -93,7 +93,7 @@ fn filters_of_a_box_in_space_leave_little_to_the_exact_stage() {
 }
 
 #[test]
-fn distances_and_centres_are_told_by_floating_point() {
+fn distances_and_centers_are_told_by_floating_point() {
     use Sign::{Negative, Positive};
     for size in [1.0, 1e-6, 1e6, 1e-100, 1e100] {
         assert_eq!(distance::told(1e-14 * size, size), Some(Positive), "{size}");
@@ -101,11 +101,11 @@ fn distances_and_centres_are_told_by_floating_point() {
         assert_eq!(distance::told(distance::ERROR * size, size), None, "{size}");
         assert_eq!(distance::told(-1e-16 * size, size), None, "{size}");
         let [u, v] = [[3.0 * size.cbrt(), 0.0], [1.0 * size.cbrt(), 2.0 * size.cbrt()]];
-        // The centre is (1.5, 0.5).
+        // The center is (1.5, 0.5).
         for (w, expected) in [([0.0, 1.0], Positive), ([1.0, 0.0], Negative), ([2.9, 1.0], Positive)] {
-            assert_eq!(centre::side(u, v, w), Some(expected), "{size} {w:?}");
+            assert_eq!(center::side(u, v, w), Some(expected), "{size} {w:?}");
         }
-        assert_eq!(centre::side(u, v, [3.0, 1.0]), None, "{size}");
+        assert_eq!(center::side(u, v, [3.0, 1.0]), None, "{size}");
     }
     assert_eq!(distance::compared(1.0, 2.0), Some(Ordering::Less));
     assert_eq!(distance::compared(2.0, 1.0), Some(Ordering::Greater));
@@ -114,11 +114,11 @@ fn distances_and_centres_are_told_by_floating_point() {
     assert_eq!(distance::told(1e-290, 1e-290), Some(Positive));
     assert_eq!(distance::told(f64::INFINITY, f64::INFINITY), None);
     // Too small, or a product beside huge lengths that may have lost what counts.
-    assert_eq!(centre::side([3e-141, 0.0], [1e-141, 2e-141], [0.0, 1.0]), None);
-    assert_eq!(centre::side([1e150, 0.0], [0.0, 1.0], [0.0, 5e-324]), None);
-    assert_eq!(centre::side([1.0, 0.0], [0.0, 1e150], [5e-324, 0.0]), None);
-    assert_eq!(centre::side([1e150, 0.0], [0.0, 1e-100], [0.0, 1e-202]), None);
-    assert_eq!(centre::side([1e150, 0.0], [0.0, 1.0], [0.0, 1e-290]), Some(Positive));
+    assert_eq!(center::side([3e-141, 0.0], [1e-141, 2e-141], [0.0, 1.0]), None);
+    assert_eq!(center::side([1e150, 0.0], [0.0, 1.0], [0.0, 5e-324]), None);
+    assert_eq!(center::side([1.0, 0.0], [0.0, 1e150], [5e-324, 0.0]), None);
+    assert_eq!(center::side([1e150, 0.0], [0.0, 1e-100], [0.0, 1e-202]), None);
+    assert_eq!(center::side([1e150, 0.0], [0.0, 1.0], [0.0, 1e-290]), Some(Positive));
 }
 
 /// Distances that are equal but for their rounding are compared exactly.
@@ -252,7 +252,7 @@ fn planes_tell_what_is_not_near() {
 fn bounds_are_those_of_their_derivations() {
     let u = 2f64.powi(-53);
     assert_eq!(distance::ERROR, 8.0 * u);
-    assert_eq!((centre::ERROR, centre::LOST), (20.0 * u, 2f64.powi(-1000)));
+    assert_eq!((center::ERROR, center::LOST), (20.0 * u, 2f64.powi(-1000)));
     assert_eq!(crate::plane::BOUND, 10.0 * u);
     assert_eq!((crate::clear::UNIT, crate::clear::FLAT), (u, 2f64.powi(-30)));
 }

@@ -1,4 +1,4 @@
-//! Circles about two of several equal disks: where along the bisector of two centres the others come in the way.
+//! Circles about two of several equal disks: where along the bisector of two centers the others come in the way.
 //!
 //! Source: the strong and the weak problem of Devillers, "Delaunay triangulation of imprecise points", JoCG 2011, §1, whose
 //! predicates are worked out here. The point of the bisector of i and j at s is
@@ -26,7 +26,7 @@ use std::cmp::Ordering;
 use crate::{Point2, Sign, angle, compare_with_radius, orient2d};
 use interval::Interval;
 
-/// Two different centres of disks of one diameter.
+/// Two different centers of disks of one diameter.
 #[derive(Clone, Copy, Debug)]
 pub struct DiskPair {
     i: Point2,
@@ -138,7 +138,7 @@ impl DiskPair {
 
     /// Where the smallest disk that meets both has all of the disk around `k` inside: d_k < d - e. `None` if nowhere.
     pub fn blocked_by(&self, k: Point2) -> Option<Stretch> {
-        // For nearer centres squares would also tell where d_k < e - d.
+        // For nearer centers squares would also tell where d_k < e - d.
         let is_apart = |p: Point2| compare_with_radius(p, k, self.diameter).is_gt();
         (is_apart(self.i) && is_apart(self.j)).then(|| self.stretch(k, Question::Blocked)).flatten()
     }

@@ -13,14 +13,14 @@ use crate::{Point2, Sign};
 /// The fixed point of many decisions.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedPoint {
-    centre: Point2,
+    center: Point2,
 }
 
 /// Another point, relative to the fixed one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SeenCorner {
     end: Point2,
-    from_centre: Point2,
+    from_center: Point2,
     square: f64,
 }
 
@@ -31,17 +31,17 @@ impl SeenCorner {
         self.end
     }
 
-    /// The differences of its coordinates to those of the centre, rounded.
+    /// The differences of its coordinates to those of the center, rounded.
     #[inline]
-    pub fn from_centre(&self) -> Point2 {
-        self.from_centre
+    pub fn from_center(&self) -> Point2 {
+        self.from_center
     }
 
-    /// The cross product with another one, rounded: about twice the area of both and the centre. Exchanged they give the same with the
+    /// The cross product with another one, rounded: about twice the area of both and the center. Exchanged they give the same with the
     /// other sign.
     #[inline]
     pub fn cross(&self, other: &Self) -> f64 {
-        let ([ax, ay], [bx, by]) = (self.from_centre, other.from_centre);
+        let ([ax, ay], [bx, by]) = (self.from_center, other.from_center);
         ax * by - bx * ay
     }
 }
@@ -49,40 +49,40 @@ impl SeenCorner {
 impl FixedPoint {
     /// Around this point.
     #[inline]
-    pub fn new(centre: Point2) -> Self {
-        Self { centre }
+    pub fn new(center: Point2) -> Self {
+        Self { center }
     }
 
     /// The point.
     #[inline]
-    pub fn centre(&self) -> Point2 {
-        self.centre
+    pub fn center(&self) -> Point2 {
+        self.center
     }
 
     /// The cached differences of another point.
     #[inline]
     pub fn corner(&self, end: Point2) -> SeenCorner {
-        let [x, y] = [end[0] - self.centre[0], end[1] - self.centre[1]];
-        SeenCorner { end, from_centre: [x, y], square: x * x + y * y }
+        let [x, y] = [end[0] - self.center[0], end[1] - self.center[1]];
+        SeenCorner { end, from_center: [x, y], square: x * x + y * y }
     }
 
-    /// `orient2d(a, b, centre)`, given `a.cross(b)`.
+    /// `orient2d(a, b, center)`, given `a.cross(b)`.
     #[inline]
     pub fn side(&self, a: &SeenCorner, b: &SeenCorner, cross: f64) -> Sign {
         if let Some(sign) = orient2d_of_lengths(cross, a.square + b.square) {
             count(Predicate::Orient2d, Stage::Filter);
             return sign;
         }
-        orient2d_exact(a.end, b.end, self.centre)
+        orient2d_exact(a.end, b.end, self.center)
     }
 
-    /// `in_circle(a, b, c, centre)`, given the cross products of b and c, of c and a, and of a and b.
+    /// `in_circle(a, b, c, center)`, given the cross products of b and c, of c and a, and of a and b.
     #[inline]
     pub fn in_circle(&self, [a, b, c]: [&SeenCorner; 3], crosses: [f64; 3]) -> Sign {
         if let Some(sign) = in_circle_of_lengths([a.square, b.square, c.square], crosses) {
             count(Predicate::InCircle, Stage::Filter);
             return sign;
         }
-        in_circle_exact(a.end, b.end, c.end, self.centre)
+        in_circle_exact(a.end, b.end, c.end, self.center)
     }
 }

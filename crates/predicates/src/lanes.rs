@@ -1,6 +1,6 @@
 //! Two numbers that are computed with at once.
 //!
-//! Optimising compilers make one instruction of both on processors that have it (SSE2, NEON), which is what this type is for. Results are
+//! Optimizing compilers make one instruction of both on processors that have it (SSE2, NEON), which is what this type is for. Results are
 //! the same everywhere.
 
 use std::ops::{Add, Div, Mul, Sub};

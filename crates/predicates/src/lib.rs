@@ -24,7 +24,7 @@
 
 mod ball;
 mod cell;
-mod centre;
+mod center;
 mod clear;
 pub mod counters;
 #[cfg(test)]
@@ -51,14 +51,14 @@ mod plane;
 mod power;
 mod side_in_plane;
 mod sign;
-mod sphere_centre;
+mod sphere_center;
 mod sphere_pencil;
 #[cfg(test)]
 mod stages;
 mod within;
 
 pub use cell::segment_rounds_to;
-pub use centre::{centre_direction, centre_side};
+pub use center::{center_direction, center_side};
 pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
@@ -72,7 +72,7 @@ pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
 pub use length::{Length, compare_lengths};
 pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
-pub use line::{Line, Spot, circumcentre, power_centre};
+pub use line::{Line, Spot, circumcenter, power_center};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d, orient3d_moved};
@@ -87,7 +87,7 @@ pub use power::{
 };
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
-pub use sphere_centre::circumcentre3;
+pub use sphere_center::circumcenter3;
 pub use sphere_pencil::{Ball, SpherePencil};
 pub use within::{stays_within, stays_within3};
 

@@ -7,13 +7,13 @@
 //! A line is where a x + b y + c is zero; two lines meet at the cross product of their coefficients, and the third line
 //! there is the determinant of all three, over that of (a, b) of the first two. Degree four in the coordinates.
 
-pub(crate) mod centres;
+pub(crate) mod centers;
 mod exact;
 pub(crate) mod rounded;
 
 use std::cmp::Ordering;
 
-pub use centres::{circumcentre, power_centre};
+pub use centers::{circumcenter, power_center};
 
 use crate::ball::U;
 use crate::{Point2, Sign, Site, compare_distances, compare_powers, lexicographic, orient2d};
@@ -49,12 +49,12 @@ impl Line {
     ///
     /// ```
     /// use delone_predicates::{Line, Sign, Spot};
-    /// // A circumcentre, and the side of a square that it is on.
+    /// // A circumcenter, and the side of a square that it is on.
     /// let (a, b, c) = ([0.0, 0.0], [0.2, 0.0], [0.0, 0.2]);
-    /// let centre = Spot::Meeting(Line::Bisector(a, b), Line::Bisector(a, c));
-    /// assert_eq!(Line::Below(0, 0.1).side(&centre), Sign::Zero);
+    /// let center = Spot::Meeting(Line::Bisector(a, b), Line::Bisector(a, c));
+    /// assert_eq!(Line::Below(0, 0.1).side(&center), Sign::Zero);
     /// // Far below what f64 arithmetic can see: 0.3 - 0.2 is not 0.1.
-    /// assert_eq!(Line::Above(0, 0.3 - 0.2).side(&centre), Sign::Positive);
+    /// assert_eq!(Line::Above(0, 0.3 - 0.2).side(&center), Sign::Positive);
     /// ```
     pub fn side(&self, spot: &Spot) -> Sign {
         match *spot {
@@ -230,7 +230,7 @@ impl Spot {
     /// whatever the order and the directions of the lines. `None` for lines that do not meet, and if it is too far away for an
     /// `f64`.
     ///
-    /// Two bisectors that share a site meet at [`crate::circumcentre`]. O(1).
+    /// Two bisectors that share a site meet at [`crate::circumcenter`]. O(1).
     ///
     /// ```
     /// use delone_predicates::{Line, Spot};
@@ -241,16 +241,16 @@ impl Spot {
         match *self {
             Self::Point(p) => Some(p),
             Self::Meeting(Line::Bisector(a, b), Line::Bisector(c, d)) if a == c || b == c => {
-                circumcentre(a, b, d)
+                circumcenter(a, b, d)
             }
             Self::Meeting(Line::Bisector(a, b), Line::Bisector(c, d)) if a == d || b == d => {
-                circumcentre(a, b, c)
+                circumcenter(a, b, c)
             }
             Self::Meeting(Line::Radical(a, b), Line::Radical(c, d)) if a == c || b == c => {
-                power_centre(a, b, d)
+                power_center(a, b, d)
             }
             Self::Meeting(Line::Radical(a, b), Line::Radical(c, d)) if a == d || b == d => {
-                power_centre(a, b, c)
+                power_center(a, b, c)
             }
             Self::Meeting(first, second) => {
                 let known = [0, 1].map(|axis| first.fixed(axis).or(second.fixed(axis)));

@@ -2,7 +2,7 @@
 //! dimensions.
 //!
 //! Source: Kirkpatrick and Radke, "A framework for computational morphology", 1985. The lune of a, b for beta >= 1 is the
-//! meeting of two balls of radius beta |ab| / 2: one has a on its border and its centre on the ray from a through b, the other
+//! meeting of two balls of radius beta |ab| / 2: one has a on its border and its center on the ray from a through b, the other
 //! the same with a and b exchanged. For beta = 1 both are the ball with diameter ab, for beta = 2 they go around a and b. With
 //! u = p - a and v = b - a, p is inside of the first where |u - beta v / 2|^2 < |beta v / 2|^2, which is
 //!

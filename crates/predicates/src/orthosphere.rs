@@ -1,8 +1,8 @@
 //! The smallest spheres orthogonal to points with weights, which alpha complexes are made of: who is inside of one, and how
 //! large it is.
 //!
-//! A sphere with centre c and squared radius r is orthogonal to a site (p, w) if |p - c|^2 = r + w; without weights it goes
-//! through p. Of those orthogonal to all corners of a simplex the smallest has its centre in the span of the corners. Source:
+//! A sphere with center c and squared radius r is orthogonal to a site (p, w) if |p - c|^2 = r + w; without weights it goes
+//! through p. Of those orthogonal to all corners of a simplex the smallest has its center in the span of the corners. Source:
 //! Edelsbrunner, "The union of balls and its dual shape", DCG 13 (1995), from the equations c . 2 u = |u|^2 - (w - w'), one for
 //! each corner as seen from the last one.
 //!

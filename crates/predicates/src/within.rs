@@ -3,16 +3,16 @@
 //! As for [`crate::keeps_clear`], those who ask lose only time if a circle is not seen to stay inside, so there is no exact
 //! stage: floating point with a proven bound.
 //!
-//! Let m be the largest difference of a coordinate, u = 2^-53, the first corner the origin, b and c the others. The centre is
+//! Let m be the largest difference of a coordinate, u = 2^-53, the first corner the origin, b and c the others. The center is
 //! N / D with N = (c_y b.b - b_y c.c, b_x c.c - c_x b.b) and D = 2 (b x c), so |N| <= 4 m^3 and |D| <= 4 m^2. Differences are off by u of
 //! themselves. A product of two is off by 3 u m^2, hence D by 2 (2 . 3 + 2) u m^2 = 16 u m^2 and b.b, at most 2 m^2, by
 //! 8 u m^2; one of its products with a coordinate by (8 + 2 + 2) u m^3, hence N by (2 . 12 + 4) u m^3 = 28 u m^3.
-//! So a coordinate c of the centre is off by (28 m + 16 |c|) u m^2 / |D| and by u |c| for the quotient, which |D| <= 4 m^2 makes
+//! So a coordinate c of the center is off by (28 m + 16 |c|) u m^2 / |D| and by u |c| for the quotient, which |D| <= 4 m^2 makes
 //! e <= u (32 m + 20 |c|) m^2 / |D| in all: the 4 are for terms of the second order, small while |D| >= 2^-30 m^2.
 //! The radius, at least as great as |c|, is off by sqrt(2) e + 2 u of itself, the distance s of a side by u |s|; their sum
 //! with c by less than 3 e + 8 u (radius + |s|). The comparison allows 4 e and 16 u.
 //!
-//! In space the centre is that of [`crate::keeps_clear`], a coordinate off by e <= u (256 m + 128 |c|) m^3 / |D|. The radius is
+//! In space the center is that of [`crate::keeps_clear`], a coordinate off by e <= u (256 m + 128 |c|) m^3 / |D|. The radius is
 //! off by sqrt(3) e + 3 u of itself; the sum with c and a side by less than 2.8 e + 8 u (radius + |s|), because the two
 //! subtractions lose 4 u radius + u |s| and the side itself u |s|. As a corner is m away, radius >= m / 2, so with
 //! |D| >= 2^-30 m^3 all e are below 1e-4 radius: what is computed stands for what it is in the bound, and 4 e and 16 u are enough.
@@ -50,15 +50,15 @@ pub fn stays_within([a, b, c]: [Point2; 3], low: Point2, high: Point2) -> bool {
         return false;
     }
     let (bb, cc) = (b[0] * b[0] + b[1] * b[1], c[0] * c[0] + c[1] * c[1]);
-    let centre = [(c[1] * bb - b[1] * cc) / det, (b[0] * cc - c[0] * bb) / det];
-    let radius = (centre[0] * centre[0] + centre[1] * centre[1]).sqrt();
+    let center = [(c[1] * bb - b[1] * cc) / det, (b[0] * cc - c[0] * bb) / det];
+    let radius = (center[0] * center[0] + center[1] * center[1]).sqrt();
     let off = 4.0 * UNIT * (32.0 * size + 20.0 * radius) * square / det.abs();
     // False where a distance is no number or too large for one.
     let is_beyond = |gap: f64, side: f64| gap > off + 16.0 * UNIT * (radius + side.abs());
     (0..2).all(|k| {
         let (below, above) = (low[k] - a[k], high[k] - a[k]);
-        (low[k] == f64::NEG_INFINITY || is_beyond(centre[k] - radius - below, below))
-            && (high[k] == f64::INFINITY || is_beyond(above - centre[k] - radius, above))
+        (low[k] == f64::NEG_INFINITY || is_beyond(center[k] - radius - below, below))
+            && (high[k] == f64::INFINITY || is_beyond(above - center[k] - radius, above))
     })
 }
 
@@ -81,13 +81,13 @@ pub fn stays_within3(corners: [Point3; 4], low: Point3, high: Point3) -> bool {
     if low == [f64::NEG_INFINITY; 3] && high == [f64::INFINITY; 3] {
         return true;
     }
-    let Some(Sphere { centre, radius, off }) = sphere(corners) else { return false };
+    let Some(Sphere { center, radius, off }) = sphere(corners) else { return false };
     let off = 4.0 * off;
     // False where a distance is no number or too large for one.
     let is_beyond = |gap: f64, side: f64| gap > off + 16.0 * UNIT * (radius + side.abs());
     (0..3).all(|k| {
         let (below, above) = (low[k] - corners[0][k], high[k] - corners[0][k]);
-        (low[k] == f64::NEG_INFINITY || is_beyond(centre[k] - radius - below, below))
-            && (high[k] == f64::INFINITY || is_beyond(above - centre[k] - radius, above))
+        (low[k] == f64::NEG_INFINITY || is_beyond(center[k] - radius - below, below))
+            && (high[k] == f64::INFINITY || is_beyond(above - center[k] - radius, above))
     })
 }

@@ -20,7 +20,7 @@ fn corners(r: &mut Random, size: f64) -> [Point3; 4] {
     [a, b, c, d]
 }
 
-/// The centre and the radius, rounded.
+/// The center and the radius, rounded.
 fn sphere([a, b, c, d]: [Point3; 4]) -> (Point3, f64) {
     let from = |p: Point3| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
     let cross = |p: Point3, q: Point3| {
@@ -46,8 +46,8 @@ fn clear_spheres_are_clear() {
     for _ in 0..40_000 {
         let size = [1.0, 1e-55, 1e55, 1e-100, 1e200][r.below(5)];
         let corners = corners(&mut r, size);
-        let (centre, radius) = sphere(corners);
-        if !centre.iter().all(|x| x.is_finite())
+        let (center, radius) = sphere(corners);
+        if !center.iter().all(|x| x.is_finite())
             || exact::orient3d(corners[0], corners[1], corners[2], corners[3]) == 0
         {
             continue;
@@ -55,7 +55,7 @@ fn clear_spheres_are_clear() {
         // A box with a side, an edge or a corner near the sphere.
         let direction = [[1.0, 0.0, 0.0], [0.0, -0.6, 0.8], [-0.36, 0.48, 0.8]][r.below(3)];
         let gap = [0.3, 1e-3, 1e-8, 1e-12, 1e-15, -1e-15, -1e-12, -0.1][r.below(8)];
-        let nearest = [0, 1, 2].map(|k| centre[k] + radius * (1.0 + gap) * direction[k]);
+        let nearest = [0, 1, 2].map(|k| center[k] + radius * (1.0 + gap) * direction[k]);
         let away = |k: usize| if direction[k] == 0.0 { radius } else { 0.0 };
         let low = [0, 1, 2].map(|k| nearest[k] - if direction[k] < 0.0 { radius } else { away(k) });
         let high = [0, 1, 2].map(|k| nearest[k] + if direction[k] > 0.0 { radius } else { away(k) });
@@ -98,7 +98,7 @@ fn what_is_clear_of_the_heaviest_is_so_exactly() {
         let size = [1.0, 1e-3, 1e20, 1e-55, 1e55][r.below(5)];
         let weigh = [0.0, 1e-6, 0.3, 30.0, 1e9][r.below(5)] * size * size;
         let all = corners(&mut r, size).map(|p| (p, weigh * r.between(-1.0, 1.0)));
-        // The centre and the power of the first corner, rounded.
+        // The center and the power of the first corner, rounded.
         let from = |p: Point3| [0, 1, 2].map(|k| p[k] - all[0].0[k]);
         let cross = |p: Point3, q: Point3| {
             [0, 1, 2].map(|k| p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3])
@@ -108,13 +108,13 @@ fn what_is_clear_of_the_heaviest_is_so_exactly() {
         let [lb, lc, ld] = [(b, 1), (c, 2), (d, 3)].map(|(p, i)| dot(p, p) - (all[i].1 - all[0].1));
         let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
         let at = [0, 1, 2].map(|k| (lb * cd[k] + lc * db[k] + ld * bc[k]) / (2.0 * dot(b, cd)));
-        let centre = [0, 1, 2].map(|k| all[0].0[k] + at[k]);
+        let center = [0, 1, 2].map(|k| all[0].0[k] + at[k]);
         let radius = dot(at, at).sqrt().max(size);
         // A box at some distance, and weights that reach the sphere from there, nearly.
         let direction = point(&mut r, 1.0);
         let length = dot(direction, direction).sqrt();
         let distance = radius * [0.0, 0.2, 1.0, 1.5, 3.0][r.below(5)];
-        let nearest = [0, 1, 2].map(|k| centre[k] + distance * direction[k] / length);
+        let nearest = [0, 1, 2].map(|k| center[k] + distance * direction[k] / length);
         let low = [0, 1, 2].map(|k| nearest[k] - if direction[k] < 0.0 { radius } else { 0.0 });
         let high = [0, 1, 2].map(|k| nearest[k] + if direction[k] > 0.0 { radius } else { 0.0 });
         let reach = distance * distance - dot(at, at) + all[0].1;

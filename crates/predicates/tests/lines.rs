@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use delone_generators::Random;
 use delone_oracle::lines::{self, Line as Judged};
 use delone_oracle::share;
-use delone_predicates::{Line, Point2, Sign, Spot, circumcentre};
+use delone_predicates::{Line, Point2, Sign, Spot, circumcenter};
 
 /// Coordinates of one kind; lines are made of those of one kind.
 type Family = (&'static str, fn(&mut Random) -> f64);
@@ -176,16 +176,16 @@ fn meetings_are_correctly_rounded() {
     assert!(rounded > 50_000, "only {rounded}");
 }
 
-/// Right angles, equal heights and slivers: centres half way between two numbers, and such that hang on the last bits.
+/// Right angles, equal heights and slivers: centers half way between two numbers, and such that hang on the last bits.
 #[test]
-fn circumcentres_are_correctly_rounded() {
+fn circumcenters_are_correctly_rounded() {
     let mut random = Random::new(9);
     let judge = |name: &str, [a, b, c]: [Point2; 3]| {
-        let Some(at) = circumcentre(a, b, c) else { return 0 };
+        let Some(at) = circumcenter(a, b, c) else { return 0 };
         let nearest = lines::meet_nearest_to(Judged::Bisector(a, b), Judged::Bisector(a, c), at);
         assert_eq!(nearest, Some([true; 2]), "{name}: {a:?} {b:?} {c:?} at {at:?}");
         for [p, q, r] in [[a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
-            assert_eq!(circumcentre(p, q, r).map(|p| p.map(f64::to_bits)), Some(at.map(f64::to_bits)));
+            assert_eq!(circumcenter(p, q, r).map(|p| p.map(f64::to_bits)), Some(at.map(f64::to_bits)));
         }
         1
     };
@@ -208,15 +208,15 @@ fn circumcentres_are_correctly_rounded() {
 }
 
 #[test]
-fn meetings_of_bisectors_are_circumcentres() {
+fn meetings_of_bisectors_are_circumcenters() {
     let mut random = Random::new(4);
     for _ in 0..10_000 {
         let mut point = || -> Point2 { [random.unit(), random.unit()] };
         let (a, b, c) = (point(), point(), point());
-        let centre = circumcentre(a, b, c);
+        let center = circumcenter(a, b, c);
         for (e, f) in [((a, b), (a, c)), ((b, a), (c, a)), ((b, c), (a, b)), ((c, b), (c, a))] {
             let spot = Spot::Meeting(Line::Bisector(e.0, e.1), Line::Bisector(f.0, f.1));
-            assert_eq!(spot.rounded(), centre);
+            assert_eq!(spot.rounded(), center);
         }
     }
 }

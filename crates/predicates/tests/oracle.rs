@@ -4,7 +4,7 @@ use delone_generators::Random;
 use delone_oracle::{exact, share};
 use delone_predicates::{
     Filter, Filter3, FixedPoint, Four, Grid, Pencil, Plane, Point2, Point3, Sign, SpherePencil, angle,
-    centre_direction, centre_side, compare_distances, compare_distances3, compare_with_radius,
+    center_direction, center_side, compare_distances, compare_distances3, compare_with_radius,
     compare_with_radius3, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further,
     lexicographic, lexicographic3, orient2d, orient3d,
 };
@@ -200,8 +200,8 @@ fn pencils_with_static_filters_are_exact() {
 
 #[test]
 fn what_is_asked_about_a_hub_is_exact() {
-    tuples(10, 60_000, |name, [a, b, c, centre]| {
-        let fixed = FixedPoint::new(centre);
+    tuples(10, 60_000, |name, [a, b, c, center]| {
+        let fixed = FixedPoint::new(center);
         let [at_a, at_b, at_c] = [a, b, c].map(|p| fixed.corner(p));
         let crosses @ [bc, ca, ab] = [at_b.cross(&at_c), at_c.cross(&at_a), at_a.cross(&at_b)];
         for (p, q, side) in [
@@ -209,16 +209,16 @@ fn what_is_asked_about_a_hub_is_exact() {
             (c, a, fixed.side(&at_c, &at_a, ca)),
             (c, b, fixed.side(&at_c, &at_b, -bc)),
         ] {
-            assert_eq!(side, sign(exact::orient2d(p, q, centre)), "{name}: {p:?} {q:?} {centre:?}");
+            assert_eq!(side, sign(exact::orient2d(p, q, center)), "{name}: {p:?} {q:?} {center:?}");
         }
-        let expected = sign(exact::in_circle(a, b, c, centre));
+        let expected = sign(exact::in_circle(a, b, c, center));
         assert_eq!(
             fixed.in_circle([&at_a, &at_b, &at_c], crosses),
             expected,
-            "{name}: {a:?} {b:?} {c:?} {centre:?}"
+            "{name}: {a:?} {b:?} {c:?} {center:?}"
         );
         let turned = fixed.in_circle([&at_b, &at_a, &at_c], [-ca, -bc, -ab]);
-        assert_eq!(turned, -expected, "{name}: {a:?} {b:?} {c:?} {centre:?}");
+        assert_eq!(turned, -expected, "{name}: {a:?} {b:?} {c:?} {center:?}");
     });
 }
 
@@ -288,14 +288,14 @@ fn distances_and_angles_are_exact() {
 }
 
 #[test]
-fn sides_of_circumcentres_are_exact() {
+fn sides_of_circumcenters_are_exact() {
     let mut zero = 0;
     tuples(10, 60_000, |name, [o, a, b, p]| {
         let (a, b) = if exact::orient2d(o, a, b) < 0 { (b, a) } else { (a, b) };
-        let expected = exact::centre_side(o, a, b, p);
-        assert_eq!(centre_side(o, a, b, p), sign(expected), "{name}: {o:?} {a:?} {b:?} {p:?}");
-        let expected_direction = exact::centre_direction(o, a, b).map(sign);
-        assert_eq!(centre_direction(o, a, b), expected_direction, "{name}: {o:?} {a:?} {b:?}");
+        let expected = exact::center_side(o, a, b, p);
+        assert_eq!(center_side(o, a, b, p), sign(expected), "{name}: {o:?} {a:?} {b:?} {p:?}");
+        let expected_direction = exact::center_direction(o, a, b).map(sign);
+        assert_eq!(center_direction(o, a, b), expected_direction, "{name}: {o:?} {a:?} {b:?}");
         zero += usize::from(expected == 0);
     });
     assert!(zero > share(1000), "only {zero} ties were met");
@@ -305,7 +305,7 @@ fn sides_of_circumcentres_are_exact() {
 fn a_lost_product_decides_no_side() {
     let (o, a, b) = ([0.0, 0.0], [1e18, -1e18 - 1e14], [1e9 + 0.3, -(1e9 + 0.4)]);
     let p = [5e-324, 5e-324];
-    assert_eq!(centre_side(o, a, b, p), sign(exact::centre_side(o, a, b, p)));
+    assert_eq!(center_side(o, a, b, p), sign(exact::center_side(o, a, b, p)));
 }
 
 #[test]

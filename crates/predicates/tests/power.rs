@@ -1,11 +1,11 @@
 //! The power tests against determinants of unlimited size, on random and hostile sites.
 
 use delone_generators::Random;
-use delone_oracle::power::{Lifted, compare, has_nearest_centre};
+use delone_oracle::power::{Lifted, compare, has_nearest_center};
 use delone_predicates::{
     Filter3, Grid, Line, Sign, Site, SpherePencil, Spot, compare_powers, in_circle, in_power_circle,
     in_power_circle_with_ties, in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere,
-    orient2d, orient3d, power_centre,
+    orient2d, orient3d, power_center,
 };
 
 /// A coordinate of a family, and a weight that ties often or nearly.
@@ -178,21 +178,21 @@ fn radical_axes_are_on_the_side_that_the_power_test_says() {
 }
 
 #[test]
-fn power_centres_are_correctly_rounded() {
+fn power_centers_are_correctly_rounded() {
     let mut near = 0;
     tuples::<2, 3>(6, 2000, |name, [a, b, c]| {
-        let Some(centre) = power_centre(a, b, c) else { return };
-        let bits = centre.map(f64::to_bits);
+        let Some(center) = power_center(a, b, c) else { return };
+        let bits = center.map(f64::to_bits);
         for [p, q, r] in [[a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
             assert_eq!(
-                power_centre(p, q, r).map(|p| p.map(f64::to_bits)),
+                power_center(p, q, r).map(|p| p.map(f64::to_bits)),
                 Some(bits),
                 "{name}: {a:?} {b:?} {c:?}"
             );
         }
         let spot = Spot::Meeting(Line::Radical(b, a), Line::Radical(c, b));
         assert_eq!(spot.rounded().map(|p| p.map(f64::to_bits)), Some(bits), "{name}: {a:?} {b:?} {c:?}");
-        assert!(has_nearest_centre([a, b, c], centre), "{name}: {a:?} {b:?} {c:?}");
+        assert!(has_nearest_center([a, b, c], center), "{name}: {a:?} {b:?} {c:?}");
         near += 1;
     });
     assert!(near > 1000, "{near}");

@@ -1,10 +1,10 @@
 //! Every tuple of numbers where guards have their edges, against integers of unlimited size: the least and the largest
-//! numbers, the roots and the fourth and fifth roots of these, and neighbours of one. A guard against underflow or overflow that is
+//! numbers, the roots and the fourth and fifth roots of these, and neighbors of one. A guard against underflow or overflow that is
 //! off by a binade, or looks at the wrong product, lets some tuple of these through.
 
 use delone_oracle::{exact, is_due};
 use delone_predicates::{
-    Point2, Sign, angle, centre_direction, centre_side, compare_distances, compare_distances3,
+    Point2, Sign, angle, center_direction, center_side, compare_distances, compare_distances3,
     compare_with_radius, compare_with_radius3, in_circle_with_ties, in_sphere_with_ties, orient2d, orient3d,
 };
 
@@ -78,16 +78,16 @@ fn distances_and_angles() {
 }
 
 #[test]
-fn sides_of_centres() {
+fn sides_of_centers() {
     let numbers = numbers(&[-1074, -540, -462, -1, 100, 511], &[1.0]);
     tuples(&numbers, |[ax, ay, bx, by, px, py]| {
         let (a, b, p) = ([ax, ay], [bx, by], [px, py]);
         if exact::orient2d(O, a, b) <= 0 {
             return;
         }
-        assert_eq!(centre_side(O, a, b, p), sign(exact::centre_side(O, a, b, p)), "{a:?} {b:?} {p:?}");
-        let expected = exact::centre_direction(O, a, b).map(sign);
-        assert_eq!(centre_direction(O, a, b), expected, "{a:?} {b:?}");
+        assert_eq!(center_side(O, a, b, p), sign(exact::center_side(O, a, b, p)), "{a:?} {b:?} {p:?}");
+        let expected = exact::center_direction(O, a, b).map(sign);
+        assert_eq!(center_direction(O, a, b), expected, "{a:?} {b:?}");
     });
 }
 

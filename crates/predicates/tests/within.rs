@@ -15,7 +15,7 @@ fn corners(r: &mut Random, size: f64, offset: f64) -> [Point2; 3] {
     [a, b, c].map(|p| [p[0] + at[0], p[1] + at[1]])
 }
 
-/// The centre and the radius, rounded.
+/// The center and the radius, rounded.
 fn circle([a, b, c]: [Point2; 3]) -> (Point2, f64) {
     let from = |p: Point2| [p[0] - a[0], p[1] - a[1]];
     let (b, c) = (from(b), from(c));
@@ -33,8 +33,8 @@ fn circles_within_are_within() {
         let size = [1.0, 1e-55, 1e55, 1e-100, 1e140][r.below(5)];
         let offset = [0.0, 1.0, 1e3, 1e8, 1e12][r.below(5)];
         let corners = corners(&mut r, size, offset);
-        let (centre, radius) = circle(corners);
-        if !(centre[0] + centre[1] + radius).is_finite()
+        let (center, radius) = circle(corners);
+        if !(center[0] + center[1] + radius).is_finite()
             || exact::orient2d(corners[0], corners[1], corners[2]) == 0
         {
             continue;
@@ -43,8 +43,8 @@ fn circles_within_are_within() {
         let gap = [0.3, 1e-3, 1e-8, 1e-12, 1e-15, 1e-17, -1e-17, -1e-15, -1e-12, -0.1][r.below(10)];
         let mut gaps = [(); 4].map(|()| [1e-3, 2.0, f64::INFINITY][r.below(3)]);
         gaps[r.below(4)] = gap;
-        let low = [0, 1].map(|k| centre[k] - radius * (1.0 + gaps[k]));
-        let high = [0, 1].map(|k| centre[k] + radius * (1.0 + gaps[k + 2]));
+        let low = [0, 1].map(|k| center[k] - radius * (1.0 + gaps[k]));
+        let high = [0, 1].map(|k| center[k] + radius * (1.0 + gaps[k + 2]));
         let truth = exact::circle_is_within(corners, low, high);
         inside += usize::from(truth);
         if stays_within(corners, low, high) {
@@ -52,7 +52,7 @@ fn circles_within_are_within() {
             close += usize::from(gap < 1e-7);
             assert!(truth, "{corners:?} {low:?} {high:?}");
         } else {
-            let magnitude = centre.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let magnitude = center.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             let is_usual = size > 1e-60 && size < 1e60 && radius < 100.0 * size && magnitude < 1e4 * size;
             assert!(gap < 1e-4 || !is_usual, "{corners:?} {low:?} {high:?}");
         }
@@ -72,8 +72,8 @@ fn what_touches_is_not_within() {
             for k in 0..4 {
                 let with = |reach: f64| {
                     let mut sides = [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
-                    let centre = moved([0.0; 2]);
-                    sides[k] = if k < 2 { centre[k] - reach } else { centre[k - 2] + reach };
+                    let center = moved([0.0; 2]);
+                    sides[k] = if k < 2 { center[k] - reach } else { center[k - 2] + reach };
                     let (low, high) = ([sides[0], sides[1]], [sides[2], sides[3]]);
                     (stays_within(corners, low, high), exact::circle_is_within(corners, low, high))
                 };

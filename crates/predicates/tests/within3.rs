@@ -15,7 +15,7 @@ fn corners(r: &mut Random, size: f64, offset: f64) -> [Point3; 4] {
     [a, b, c, d].map(|p| [0, 1, 2].map(|k| p[k] + at[k]))
 }
 
-/// The centre and the radius, rounded.
+/// The center and the radius, rounded.
 fn sphere([a, b, c, d]: [Point3; 4]) -> (Point3, f64) {
     let from = |p: Point3| [0, 1, 2].map(|k| p[k] - a[k]);
     let [b, c, d] = [b, c, d].map(from);
@@ -37,17 +37,17 @@ fn spheres_within_are_within() {
         let size = [1.0, 1e-55, 1e55, 1e-70, 1e70][r.below(5)];
         let offset = [0.0, 1.0, 1e3, 1e8, 1e12][r.below(5)];
         let corners = corners(&mut r, size, offset);
-        let (centre, radius) = sphere(corners);
+        let (center, radius) = sphere(corners);
         let [a, b, c, d] = corners;
-        if !(centre.iter().sum::<f64>() + radius).is_finite() || exact::orient3d(a, b, c, d) == 0 {
+        if !(center.iter().sum::<f64>() + radius).is_finite() || exact::orient3d(a, b, c, d) == 0 {
             continue;
         }
         // A box with one side near the sphere, the others further away or at infinity.
         let gap = [0.3, 1e-3, 1e-8, 1e-12, 1e-15, 1e-17, -1e-17, -1e-15, -1e-12, -0.1][r.below(10)];
         let mut gaps = [(); 6].map(|()| [1e-3, 2.0, f64::INFINITY][r.below(3)]);
         gaps[r.below(6)] = gap;
-        let low = [0, 1, 2].map(|k| centre[k] - radius * (1.0 + gaps[k]));
-        let high = [0, 1, 2].map(|k| centre[k] + radius * (1.0 + gaps[k + 3]));
+        let low = [0, 1, 2].map(|k| center[k] - radius * (1.0 + gaps[k]));
+        let high = [0, 1, 2].map(|k| center[k] + radius * (1.0 + gaps[k + 3]));
         let truth = exact::sphere_is_within(corners, low, high);
         inside += usize::from(truth);
         if stays_within3(corners, low, high) {
@@ -55,7 +55,7 @@ fn spheres_within_are_within() {
             close += usize::from(gap < 1e-7);
             assert!(truth, "{corners:?} {low:?} {high:?}");
         } else {
-            let magnitude = centre.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let magnitude = center.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             let is_usual = size > 1e-60 && size < 1e60 && radius < 30.0 * size && magnitude < 1e4 * size;
             assert!(gap < 1e-4 || !is_usual, "{corners:?} {low:?} {high:?}");
         }
@@ -75,11 +75,11 @@ fn what_touches_is_not_within() {
             for k in 0..6 {
                 let with = |reach: f64| {
                     let (mut low, mut high) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
-                    let centre = moved([0.0; 3]);
+                    let center = moved([0.0; 3]);
                     if k < 3 {
-                        low[k] = centre[k] - reach;
+                        low[k] = center[k] - reach;
                     } else {
-                        high[k - 3] = centre[k - 3] + reach;
+                        high[k - 3] = center[k - 3] + reach;
                     }
                     (stays_within3(corners, low, high), exact::sphere_is_within(corners, low, high))
                 };

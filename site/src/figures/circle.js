@@ -7,28 +7,28 @@ import {Stage, dots, edges, strokePath} from "../stage.js";
 export function circle(section, tell) {
   const canvas = section.querySelector("canvas");
   let chosen = 0;
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     const {scale} = stage;
-    const [x, y] = [centres[2 * chosen], centres[2 * chosen + 1]];
+    const [x, y] = [centers[2 * chosen], centers[2 * chosen + 1]];
     const i = d.triangles[3 * chosen];
     const radius = Math.hypot(coords[2 * i] - x, coords[2 * i + 1] - y);
     const disk = new Path2D();
     disk.arc(x, y, radius, 0, 2 * Math.PI);
-    context.fillStyle = colour.fill;
+    context.fillStyle = color.fill;
     context.fill(disk);
-    strokePath(context, edges(d, coords), colour.delaunay, {scale});
-    strokePath(context, disk, colour.chosen, {width: 2.5, scale});
-    strokePath(context, new Path2D(d.renderTriangle(chosen)), colour.chosen, {width: 3, scale});
-    dots(context, coords, colour.ink, 4 / scale);
+    strokePath(context, edges(d, coords), color.delaunay, {scale});
+    strokePath(context, disk, color.chosen, {width: 2.5, scale});
+    strokePath(context, new Path2D(d.renderTriangle(chosen)), color.chosen, {width: 3, scale});
+    dots(context, coords, color.ink, 4 / scale);
   });
   const coords = scatter(40, stage.height, 5, 60);
   const d = new Delaunay(coords);
-  const centres = d.voronoi().circumcenters;
+  const centers = d.voronoi().circumcenters;
   const count = d.triangles.length / 3;
 
   function choose(t) {
     chosen = (t + count) % count;
-    const [x, y] = [centres[2 * chosen], centres[2 * chosen + 1]];
+    const [x, y] = [centers[2 * chosen], centers[2 * chosen + 1]];
     const radius = Math.hypot(coords[2 * d.triangles[3 * chosen]] - x, coords[2 * d.triangles[3 * chosen] + 1] - y);
     const corners = new Set(d.triangles.subarray(3 * chosen, 3 * chosen + 3));
     const inside = [...d.within(x, y, radius)].filter((i) => !corners.has(i)).length;

@@ -5,7 +5,7 @@ import {fit} from "../fit.js";
 import {edgePainter} from "../lines.js";
 import {read} from "../readers.js";
 import {random} from "../random.js";
-import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
+import {Stage, WIDTH, colors, dots, edges, strokePath} from "../stage.js";
 
 export function data(section, tell) {
   const canvas = section.querySelector("canvas");
@@ -15,13 +15,13 @@ export function data(section, tell) {
   let made; // arrays of triangles, and the coordinates that they are of
   let shown; // those on the stage
   let latest = 0; // how often points were asked for
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     if (!made) return;
     const {scale} = stage;
     const isMany = made.triangles.length > 30_000;
-    if (isMany) paint(context, made, shown, {scale: stage.pixels, colour: colour.delaunay});
-    else strokePath(context, edges(made, shown), colour.delaunay, {scale});
-    if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
+    if (isMany) paint(context, made, shown, {scale: stage.pixels, color: color.delaunay});
+    else strokePath(context, edges(made, shown), color.delaunay, {scale});
+    if (shown.length < 6000) dots(context, shown, color.ink, 2 / scale);
   });
 
   /** Shows points that `read` promises, unless others are asked for in the meantime. */
@@ -94,7 +94,7 @@ export function data(section, tell) {
     const sheet = document.createElement("canvas");
     [sheet.width, sheet.height] = [2 * WIDTH, Math.round(2 * stage.height)];
     const context = sheet.getContext("2d");
-    const {paper, delaunay} = colours();
+    const {paper, delaunay} = colors();
     context.fillStyle = paper;
     context.fillRect(0, 0, sheet.width, sheet.height);
     context.scale(2, 2);

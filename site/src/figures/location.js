@@ -16,15 +16,15 @@ export function location(section, tell) {
   let begun = 0;
   const stages = canvases.map(
     (canvas, k) =>
-      new Stage(canvas, (context, colour) => {
+      new Stage(canvas, (context, color) => {
         const {scale} = stages[k];
         context.globalAlpha = 0.45;
-        strokePath(context, all, colour.delaunay, {scale});
+        strokePath(context, all, color.delaunay, {scale});
         context.globalAlpha = 1;
         const steps = paths[k]?.slice(0, shown) ?? [];
         for (const step of steps) {
           if (step.length > 2) {
-            context.fillStyle = colour.fill;
+            context.fillStyle = color.fill;
             const path = new Path2D();
             step.forEach(([x, y], i) => (i ? path.lineTo(x, y) : path.moveTo(x, y)));
             context.fill(path);
@@ -32,8 +32,8 @@ export function location(section, tell) {
           if (step.length === 1) {
             const dot = new Path2D();
             dot.arc(...step[0], 5 / scale, 0, 2 * Math.PI);
-            strokePath(context, dot, colour.voronoi, {width: 2, scale});
-          } else ring(context, step, colour.chosen, 1.5, scale);
+            strokePath(context, dot, color.voronoi, {width: 2, scale});
+          } else ring(context, step, color.chosen, 1.5, scale);
         }
         const cross = new Path2D();
         const arm = 9 / scale;
@@ -41,7 +41,7 @@ export function location(section, tell) {
         cross.lineTo(target[0] + arm, target[1] + arm);
         cross.moveTo(target[0] + arm, target[1] - arm);
         cross.lineTo(target[0] - arm, target[1] + arm);
-        strokePath(context, cross, colour.ink, {width: 3, scale});
+        strokePath(context, cross, color.ink, {width: 3, scale});
       }),
   );
   const all = edges(d, coords);

@@ -52,7 +52,7 @@ export function one(section, tell) {
   let results = [];
   const stages = [mine, other].map(
     (canvas, k) =>
-      new Stage(canvas, (context, colour) => {
+      new Stage(canvas, (context, color) => {
         const result = results[k];
         if (!result) return;
         const {scale} = stages[k];
@@ -71,9 +71,9 @@ export function one(section, tell) {
           path.moveTo(result.coords[a], result.coords[a + 1]);
           path.lineTo(result.coords[b], result.coords[b + 1]);
         }
-        strokePath(context, good, colour.delaunay, {width: 1.5, scale});
-        strokePath(context, bad, colour.voronoi, {width: 3, dash: [6, 4], scale});
-        dots(context, result.coords, colour.ink, 2.5 / scale);
+        strokePath(context, good, color.delaunay, {width: 1.5, scale});
+        strokePath(context, bad, color.voronoi, {width: 3, dash: [6, 4], scale});
+        dots(context, result.coords, color.ink, 2.5 / scale);
       }),
   );
 

@@ -29,31 +29,31 @@ export function play(section, tell) {
   let frames = [];
   const fingers = new Map(); // by pointer: the point that is dragged, and the timer of a long press
 
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     if (!made) return;
     const scale = stage.scale;
     const isMany = made.triangles.length / 3 > 2 * PAINTED_EDGES;
     if (of("delaunay").checked) {
       const alpha = made.triangles.length > 600_000 ? 0.35 : 0.8;
-      if (isMany) paint(context, made, coords, {scale: stage.pixels, colour: colour.delaunay, alpha});
-      else strokePath(context, edges(made, coords), colour.delaunay, {scale});
+      if (isMany) paint(context, made, coords, {scale: stage.pixels, color: color.delaunay, alpha});
+      else strokePath(context, edges(made, coords), color.delaunay, {scale});
     }
     const isSmall = coords.length / 2 <= PAINTED_EDGES;
     if (of("voronoi").checked && d) {
       const path = new Path2D(d.voronoi([0, 0, WIDTH, stage.height]).render() ?? "");
-      strokePath(context, path, colour.voronoi, {dash: [6, 4], width: 1.5, scale});
+      strokePath(context, path, color.voronoi, {dash: [6, 4], width: 1.5, scale});
     }
-    if (of("circles").checked && isSmall) circles(context, colour, scale);
+    if (of("circles").checked && isSmall) circles(context, color, scale);
     if (of("hull").checked) {
-      ring(context, Array.from(made.hull, (i) => [coords[2 * i], coords[2 * i + 1]]), colour.hull, 3, scale);
+      ring(context, Array.from(made.hull, (i) => [coords[2 * i], coords[2 * i + 1]]), color.hull, 3, scale);
     }
     if (isSmall) {
-      dots(context, coords, colour.ink, (coords.length / 2 > 500 ? 1.5 : 4) / scale, (i) => gone.has(i));
-      if (chosen >= 0) dots(context, coords.subarray(2 * chosen, 2 * chosen + 2), colour.chosen, 8 / scale);
+      dots(context, coords, color.ink, (coords.length / 2 > 500 ? 1.5 : 4) / scale, (i) => gone.has(i));
+      if (chosen >= 0) dots(context, coords.subarray(2 * chosen, 2 * chosen + 2), color.chosen, 8 / scale);
     }
   });
 
-  function circles(context, colour, scale) {
+  function circles(context, color, scale) {
     const path = new Path2D();
     const {circumcenters} = (d ?? new Delaunay(coords)).voronoi([0, 0, WIDTH, stage.height]);
     for (let t = 0; t < Math.min(made.triangles.length / 3, 400); t++) {
@@ -64,7 +64,7 @@ export function play(section, tell) {
       path.moveTo(x + radius, y);
       path.arc(x, y, radius, 0, 2 * Math.PI);
     }
-    strokePath(context, path, colour.chosen, {width: 0.7, scale});
+    strokePath(context, path, color.chosen, {width: 0.7, scale});
   }
 
   function say() {

@@ -34,7 +34,7 @@ export function steps(section, tell) {
     return at.get(count);
   }
 
-  function draw(context, colour) {
+  function draw(context, color) {
     const {scale} = stage;
     const count = 3 + (now >> 1);
     const isDone = now % 2 === 1;
@@ -49,21 +49,21 @@ export function steps(section, tell) {
       return way;
     };
     for (const [, corners] of changed) {
-      context.fillStyle = colour.fill;
+      context.fillStyle = color.fill;
       context.fill(path(corners));
     }
-    for (const [, corners] of shown.all) strokePath(context, path(corners), colour.delaunay, {scale});
+    for (const [, corners] of shown.all) strokePath(context, path(corners), color.delaunay, {scale});
     for (const [, corners] of changed) {
-      strokePath(context, path(corners), isDone ? colour.hull : colour.voronoi, {width: 2.5, dash: isDone ? [] : [6, 4], scale});
+      strokePath(context, path(corners), isDone ? color.hull : color.voronoi, {width: 2.5, dash: isDone ? [] : [6, 4], scale});
     }
-    // Who waits is coloured by the triangle that it waits in.
+    // Who waits is colored by the triangle that it waits in.
     for (let i = shown.d.points.length / 2; i < COUNT; i++) {
       const t = shown.d.locate(coords[2 * i], coords[2 * i + 1]).triangle;
       dots(context, coords.subarray(2 * i, 2 * i + 2), t < 0 ? "#888888" : `hsl(${(t * 137) % 360} 60% 50%)`, 4 / scale);
     }
-    dots(context, coords.subarray(0, shown.d.points.length), colour.ink, 4 / scale);
+    dots(context, coords.subarray(0, shown.d.points.length), color.ink, 4 / scale);
     const next = Math.min(count, COUNT - 1);
-    dots(context, coords.subarray(2 * next, 2 * next + 2), colour.chosen, 8 / scale);
+    dots(context, coords.subarray(2 * next, 2 * next + 2), color.chosen, 8 / scale);
     const waiting = COUNT - shown.d.points.length / 2;
     tell(
       isDone

@@ -1,4 +1,4 @@
-// Heights between points, by triangles or by natural neighbours, and their contours.
+// Heights between points, by triangles or by natural neighbors, and their contours.
 
 import {Delaunay, contours, interpolate} from "delone/full";
 import {scatter} from "../random.js";
@@ -23,7 +23,7 @@ export function surface(section, tell) {
   }
   let chosen = -1;
   let lines = [];
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     const {scale} = stage;
     context.drawImage(picture, 0, 0, WIDTH, height);
     if (of("contours").checked) {
@@ -32,10 +32,10 @@ export function surface(section, tell) {
         points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
         if (isClosed) path.closePath();
       }
-      strokePath(context, path, colour.ink, {scale});
+      strokePath(context, path, color.ink, {scale});
     }
-    dots(context, coords, colour.ink, 3 / scale);
-    if (chosen >= 0) dots(context, coords.subarray(2 * chosen, 2 * chosen + 2), colour.chosen, 7 / scale);
+    dots(context, coords, color.ink, 3 / scale);
+    if (chosen >= 0) dots(context, coords.subarray(2 * chosen, 2 * chosen + 2), color.chosen, 7 / scale);
   });
 
   function make() {

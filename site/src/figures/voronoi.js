@@ -13,31 +13,31 @@ export function voronoi(section, tell) {
   let weights; // squared radii
   let isDrawing = false;
 
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     const {scale} = stage;
     const share = Number(of("fade").value) / 100;
     context.globalAlpha = 1 - share;
-    strokePath(context, edges(d, coords), colour.delaunay, {scale});
+    strokePath(context, edges(d, coords), color.delaunay, {scale});
     context.globalAlpha = share;
     const cells = d.voronoi([0, 0, WIDTH, stage.height]);
     if (weights) {
-      power(context, colour);
+      power(context, color);
     } else if (polygon?.length > 2 && !isDrawing) {
       try {
-        for (const rings of cells.clip([polygon])) for (const part of rings) ring(context, part, colour.voronoi, 1.5, scale);
+        for (const rings of cells.clip([polygon])) for (const part of rings) ring(context, part, color.voronoi, 1.5, scale);
       } catch (error) {
         tell(`That polygon cannot be used: ${error.message}`, true);
       }
     } else {
-      strokePath(context, new Path2D(cells.render() ?? ""), colour.voronoi, {dash: [6, 4], width: 1.5, scale});
+      strokePath(context, new Path2D(cells.render() ?? ""), color.voronoi, {dash: [6, 4], width: 1.5, scale});
     }
     context.globalAlpha = 1;
-    if (polygon) ring(context, polygon, colour.chosen, 2.5, scale);
-    dots(context, coords, colour.ink, 3 / scale);
+    if (polygon) ring(context, polygon, color.chosen, 2.5, scale);
+    dots(context, coords, color.ink, 3 / scale);
   });
 
   /** Cells of disks: where their borders meet, cells do. */
-  function power(context, colour) {
+  function power(context, color) {
     const {scale} = stage;
     const diagram = new Power(coords, weights, [0, 0, WIDTH, stage.height]);
     const disks = new Path2D();
@@ -46,8 +46,8 @@ export function voronoi(section, tell) {
       disks.moveTo(coords[2 * i] + radius, coords[2 * i + 1]);
       disks.arc(coords[2 * i], coords[2 * i + 1], radius, 0, 2 * Math.PI);
     });
-    strokePath(context, disks, colour.hull, {scale});
-    for (const cell of diagram.cellPolygons()) ring(context, cell, colour.voronoi, 1.5, scale);
+    strokePath(context, disks, color.hull, {scale});
+    for (const cell of diagram.cellPolygons()) ring(context, cell, color.voronoi, 1.5, scale);
     tell(`Power cells of disks; ${diagram.hidden.length || "no"} points have none.`);
   }
 

@@ -11,7 +11,7 @@ export function walls(section, tell) {
   let from = -1;
   let to;
   let made;
-  const stage = new Stage(canvas, (context, colour) => {
+  const stage = new Stage(canvas, (context, color) => {
     const {scale} = stage;
     const {triangles, constraints, points} = made;
     const all = new Path2D();
@@ -23,21 +23,21 @@ export function walls(section, tell) {
       }
       all.closePath();
     }
-    strokePath(context, all, colour.delaunay, {scale});
+    strokePath(context, all, color.delaunay, {scale});
     const fixed = new Path2D();
     for (let k = 0; k < constraints.length; k += 2) {
       const [a, b] = [constraints[k] * 2, constraints[k + 1] * 2];
       fixed.moveTo(points[a], points[a + 1]);
       fixed.lineTo(points[b], points[b + 1]);
     }
-    strokePath(context, fixed, colour.hull, {width: 4, scale});
+    strokePath(context, fixed, color.hull, {width: 4, scale});
     if (from >= 0 && to) {
       const line = new Path2D();
       line.moveTo(coords[2 * from], coords[2 * from + 1]);
       line.lineTo(...to);
-      strokePath(context, line, colour.chosen, {width: 3, dash: [8, 5], scale});
+      strokePath(context, line, color.chosen, {width: 3, dash: [8, 5], scale});
     }
-    dots(context, points, colour.ink, 4 / scale);
+    dots(context, points, color.ink, 4 / scale);
   });
   const coords = scatter(60, stage.height, 14, 30);
 

@@ -159,9 +159,9 @@ class Delaunay(Kept):
     def _farthest(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
         return self._once("furthest", lambda: _delone.furthest(self._core))
 
-    def _centres(self) -> NDArray[np.float64]:
-        """The circumcentres of simplices, each the nearest numbers to the exact one."""
-        return self._farthest()[1] if self._furthest else self._core.centres()
+    def _centers(self) -> NDArray[np.float64]:
+        """The circumcenters of simplices, each the nearest numbers to the exact one."""
+        return self._farthest()[1] if self._furthest else self._core.centers()
 
     @property
     def simplices(self) -> NDArray[np.int32]:
@@ -233,7 +233,7 @@ class Delaunay(Kept):
 
     @property
     def vertex_neighbor_vertices(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Neighbours of all points as (indptr, indices): those of point k are indices[indptr[k]:indptr[k + 1]]."""
+        """Neighbors of all points as (indptr, indices): those of point k are indices[indptr[k]:indptr[k + 1]]."""
 
         return self._once("vertex_neighbor_vertices", lambda: _delone.vertex_neighbors(self.npoints, self.edges))
 

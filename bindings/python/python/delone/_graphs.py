@@ -19,7 +19,7 @@ Arrays: TypeAlias = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float
 def gabriel_graph(points: ArrayLike, *, as_arrays: bool = False) -> csr_array | Arrays:
     """The Gabriel graph: pairs of points whose closed disk (ball) with both on a diameter holds no other point.
 
-    Exact, and the same for any order of the points: on every set the spanning tree is part of the relative neighbours, these of
+    Exact, and the same for any order of the points: on every set the spanning tree is part of the relative neighbors, these of
     the Gabriel graph, and that of the Delaunay triangulation. Of equal points the first has the edges.
 
     Parameters
@@ -32,7 +32,7 @@ def gabriel_graph(points: ArrayLike, *, as_arrays: bool = False) -> csr_array | 
     Returns
     -------
     csr_array of shape (n, n)
-        Symmetric, with the distances of neighbours.
+        Symmetric, with the distances of neighbors.
     (heads, tails, weights)
         With `as_arrays`: every edge in both directions with its length, sorted by heads, then by tails: as
         `libpysal.graph.Graph.from_arrays` takes it.
@@ -41,7 +41,7 @@ def gabriel_graph(points: ArrayLike, *, as_arrays: bool = False) -> csr_array | 
 
 
 def relative_neighborhood_graph(points: ArrayLike, *, as_arrays: bool = False) -> csr_array | Arrays:
-    """The relative neighbours: pairs to which no point is nearer, strictly and from both, than they are to each other.
+    """The relative neighbors: pairs to which no point is nearer, strictly and from both, than they are to each other.
 
     Parameters and results as for `gabriel_graph`.
     """
@@ -58,9 +58,9 @@ def euclidean_minimum_spanning_tree(points: ArrayLike, *, as_arrays: bool = Fals
 
 def beta_skeleton(points: ArrayLike, beta: float, *, as_arrays: bool = False) -> csr_array | Arrays:
     """The skeleton of lunes: pairs whose lune holds no other point, the meeting of two disks of radius beta/2 times their
-    distance, each with one of both on its border and its centre on the ray from there through the other one.
+    distance, each with one of both on its border and its center on the ray from there through the other one.
 
-    For `beta` 1 the lune is closed: the Gabriel graph. Above it is open: 2 gives the relative neighbours, and a larger `beta`
+    For `beta` 1 the lune is closed: the Gabriel graph. Above it is open: 2 gives the relative neighbors, and a larger `beta`
     part of the edges of a smaller one. Below 1, where a skeleton is no part of the triangulation, it is a ValueError.
     Other parameters and results as for `gabriel_graph`.
     """
@@ -70,7 +70,7 @@ def beta_skeleton(points: ArrayLike, beta: float, *, as_arrays: bool = False) ->
 def knn_graph(points: ArrayLike, k: int, *, as_arrays: bool = False) -> csr_array | Arrays:
     """Pairs of which one is among the `k` points nearest to the other; of equally near ones the lexicographically smaller.
 
-    It is symmetric, so points may have more than `k` neighbours. Other parameters and results as for `gabriel_graph`.
+    It is symmetric, so points may have more than `k` neighbors. Other parameters and results as for `gabriel_graph`.
     """
     k = as_index(k, "k")
     if k < 0:

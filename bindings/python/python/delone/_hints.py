@@ -10,7 +10,7 @@ from ._points import as_points, owned
 
 
 class Hints:
-    """Triangulates many sets of points that are near the same centres, each in about linear time.
+    """Triangulates many sets of points that are near the same centers, each in about linear time.
 
     Source: Devillers, "Delaunay triangulation of imprecise points, preprocess and actually get a fast query time". The
     result is the same as that of `Delaunay`.
@@ -18,19 +18,19 @@ class Hints:
     Examples
     --------
     >>> import delone, numpy as np
-    >>> centres = np.random.default_rng(1).random((1000, 2))
-    >>> hints = delone.Hints(centres)
-    >>> tri = hints.triangulate(centres + 1e-3)
+    >>> centers = np.random.default_rng(1).random((1000, 2))
+    >>> hints = delone.Hints(centers)
+    >>> tri = hints.triangulate(centers + 1e-3)
     >>> tri.vertex_count
     1000
     """
 
-    def __init__(self, centres: ArrayLike) -> None:
-        """Preprocesses centres."""
-        array = as_points(centres, "centres")
+    def __init__(self, centers: ArrayLike) -> None:
+        """Preprocesses centers."""
+        array = as_points(centers, "centers")
         self._shape = array.shape
         self._core = _delone.Hints(array)
 
     def triangulate(self, points: ArrayLike) -> Delaunay:
-        """The triangulation of points, the k-th of which is near the k-th centre."""
+        """The triangulation of points, the k-th of which is near the k-th center."""
         return Delaunay._of(self._core.triangulate(owned(as_points(points, columns=self._shape[1]))))

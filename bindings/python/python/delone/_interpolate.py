@@ -183,11 +183,11 @@ LinearInterpolator = LinearNDInterpolator
 
 
 class NaturalNeighborInterpolator(_Interpolator):
-    """Interpolation by natural neighbours of values at points of the plane or of space.
+    """Interpolation by natural neighbors of values at points of the plane or of space.
 
     Called as SciPy's interpolators are. Which points take part is exact, and the result is the same for any number of threads
     and any order of the points. Linear functions come out as they are. On the border of the hull values are linear. Cost: of k
-    neighbours O(k log k) for each query, and more for queries that are far from the ones before.
+    neighbors O(k log k) for each query, and more for queries that are far from the ones before.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ class NaturalNeighborInterpolator(_Interpolator):
     values : array_like of shape (n, ...)
         The values, real or complex. Of equal points the first one's count.
     method : "sibson", "laplace", "smooth" or "farin"
-        "sibson": each neighbour weighs what the cell of the query would take from its cell; smooth but at the points.
+        "sibson": each neighbor weighs what the cell of the query would take from its cell; smooth but at the points.
         "laplace": the length, in space the area, of the border between both cells over their distance; with kinks at circles.
         "smooth" is Sibson's surface with gradients, and "farin" the cubic one of Farin, which has all quadratic functions whose
         gradients are given: both are smooth everywhere inside, and take a column of values at a time.
@@ -244,7 +244,7 @@ class NaturalNeighborInterpolator(_Interpolator):
     def gradients(self) -> NDArray[Any]:
         """The gradients at the points: (n, ..., ndim), in units of values for a unit of length along each axis.
 
-        Those given, else estimates from the neighbours of each point, which are right for linear functions, and but at the border
+        Those given, else estimates from the neighbors of each point, which are right for linear functions, and but at the border
         for a + b x + c |x|^2.
         """
         slopes = self._given if self._given is not None else _delone.vertex_gradients(self.tri._core, self._table())

@@ -32,10 +32,10 @@ def length_of(merge: Merge, *arrays: NDArray[np.float64]) -> float | None:
     return _delone.MERGE_AUTO * max((float(np.abs(array).max()) for array in arrays if array.size), default=0.0)
 
 
-def merged_centres(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the
+def merged_centers(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """For each simplex the vertex that its center becomes, and whether there is one: it is infinitely far away for slivers of the
     hull that are flat within the length."""
-    rows, neighbors = tri._centres(), tri._arrays()[1]
+    rows, neighbors = tri._centers(), tri._arrays()[1]
     kept: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(rows), axis=1, dtype=bool)
     if not tri.furthest_site:
         kept[_slivers(tri, rows, length)] = False
@@ -67,14 +67,14 @@ def _slivers(tri: Delaunay, rows: NDArray[np.float64], length: float) -> NDArray
         outer = np.unique(around[(around >= 0) & ~seen[around]]).astype(np.intp)
 
 
-def _is_flat(corners: NDArray[np.float64], centres: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
+def _is_flat(corners: NDArray[np.float64], centers: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
     """Whether circles or spheres are as flat as the length along the longest edges of their simplices."""
     at = corners.T
     with np.errstate(over="ignore", invalid="ignore"):
         squares = [((at[:, i] - at[:, j]) ** 2).sum(axis=0) for i in range(at.shape[1]) for j in range(i)]
         longest = np.sqrt(np.maximum.reduce(squares))
-        radius = np.sqrt(((centres.T - at[:, 0]) ** 2).sum(axis=0))
+        radius = np.sqrt(((centers.T - at[:, 0]) ** 2).sum(axis=0))
         # The height of an arc over its chord.
         is_flat: NDArray[np.bool_] = (radius > longest) & (longest / radius * longest <= 8 * length)
-    is_flat[~np.isfinite(centres).all(axis=1)] = True
+    is_flat[~np.isfinite(centers).all(axis=1)] = True
     return is_flat

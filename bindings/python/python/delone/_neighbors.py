@@ -104,7 +104,7 @@ class Neighbors:
     def query(self, x: ArrayLike, k: int = 1) -> tuple[Any, Any]:
         """Distances and indices of the k nearest points, as `scipy.spatial.KDTree.query` gives them.
 
-        The last axis has the k neighbours, nearest first, and is left out for k = 1. Where there are not so many points, the
+        The last axis has the k neighbors, nearest first, and is left out for k = 1. Where there are not so many points, the
         distance is infinite and the index is the number of points.
         """
         queries, shape = as_queries(x, self.ndim)

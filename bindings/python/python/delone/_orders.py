@@ -41,13 +41,13 @@ class OrderVoronoi:
     bounded : (r,) array of bool
         Whether each region is bounded. Those that are not are the k-sets.
     circles : (c, 3) array of int32
-        Three points on each circle whose centre is a corner of regions, counter-clockwise.
+        Three points on each circle whose center is a corner of regions, counter-clockwise.
     inside : (c, k - 1) array of int32
         The points inside of each circle, by increasing index: k - 1 of them, or k - 2 and then -1.
     circle_regions : (c, 3) array of int32
-        The three regions around the centre of each circle.
+        The three regions around the center of each circle.
     vertices : (c, 2) array
-        The centres, each the nearest number to the exact one; infinite where no float is as large.
+        The centers, each the nearest number to the exact one; infinite where no float is as large.
 
     Raises
     ------

@@ -72,7 +72,7 @@ def svg(tri: Delaunay | ConstrainedDelaunay, width: int = 320) -> str:
 
 def _svg(width: int, height: float, layers: list[tuple[NDArray[np.float64], str, float]]) -> str:
     paths = []
-    for lines, colour, thickness in layers:
+    for lines, color, thickness in layers:
         path = "".join(f"M{x0:.1f} {y0:.1f}L{x1:.1f} {y1:.1f}" for (x0, y0), (x1, y1) in lines)
-        paths.append(f'<path d="{path}" fill="none" stroke="{colour}" stroke-width="{thickness}"/>')
+        paths.append(f'<path d="{path}" fill="none" stroke="{color}" stroke-width="{thickness}"/>')
     return f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height:.0f}">{"".join(paths)}</svg>'

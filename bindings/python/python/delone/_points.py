@@ -176,12 +176,12 @@ def as_index(value: Any, what: str) -> int:
 
 
 def as_count(k: Any, queries: int) -> int:
-    """How many neighbours each of so many queries is to have: at least one."""
+    """How many neighbors each of so many queries is to have: at least one."""
     k = as_index(k, "k")
     if k < 1:
         raise ValueError(f"k must be at least 1, not {k}")
     if k >= 2**62:
-        raise MemoryError(f"{queries} times {k} neighbours")
+        raise MemoryError(f"{queries} times {k} neighbors")
     return int(k)
 
 

@@ -215,7 +215,7 @@ class PowerDiagram(RegularTriangulation):
         return areas
 
     def centroids(self) -> NDArray[np.float64]:
-        """The centres of mass of the cells; NaN for those that are empty."""
+        """The centers of mass of the cells; NaN for those that are empty."""
         centroids: NDArray[np.float64] = self._integrated()[3]
         return centroids
 

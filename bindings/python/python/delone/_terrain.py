@@ -32,7 +32,7 @@ def rasterize(
     dtype: DTypeLike = np.float64,
     as_xarray: bool = False,
 ) -> Any:
-    """A raster of heights: a value for the centre of each cell that is in a triangle or on its border, which is exact.
+    """A raster of heights: a value for the center of each cell that is in a triangle or on its border, which is exact.
 
     With the conventions of rasterio: row 0 comes first in files and is the northern one where the step of rows is negative, and
     `transform` maps columns and rows to the corner of a cell. All threads are used.
@@ -62,7 +62,7 @@ def rasterize(
     dtype : float64 or float32
         What the result holds.
     as_xarray : bool
-        Whether an `xarray.DataArray` is wanted, with the centres of cells as coordinates y and x.
+        Whether an `xarray.DataArray` is wanted, with the centers of cells as coordinates y and x.
 
     Returns
     -------

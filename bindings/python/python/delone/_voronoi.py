@@ -14,7 +14,7 @@ from . import _delone
 from ._cached import cached_property
 from ._delaunay import Delaunay
 from ._lists import lists
-from ._merge import as_merge, length_of, merged_centres
+from ._merge import as_merge, length_of, merged_centers
 from ._options import parse
 from ._points import as_flag, as_numbers, as_points
 from ._polygons import rings_of_region
@@ -42,7 +42,7 @@ class Voronoi:
     Attributes
     ----------
     vertices : (nvertex, ndim) array
-        The circumcentres of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
+        The circumcenters of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
     ridge_points : (nridge, 2) array
         The points that each ridge is between.
     ridge_vertices : list of lists
@@ -93,8 +93,8 @@ class Voronoi:
         self.ndim, self.npoints = tri.ndim, tri.npoints
         self.furthest_site = tri.furthest_site
         length = length_of(self._merge, tri.points)
-        centres, kept = (tri._centres(), None) if length is None else merged_centres(tri, length)
-        made = _delone.voronoi_ridges(*tri._arrays(), centres, kept)
+        centers, kept = (tri._centers(), None) if length is None else merged_centers(tri, length)
+        made = _delone.voronoi_ridges(*tri._arrays(), centers, kept)
         self.vertices, self._which, self.ridge_points, self.ridge_indptr, self.ridge_indices = made
         # What is made when it is asked for; lists cost more than all the rest.
         for later in ("_rows_of_regions", "ridge_vertices", "regions"):

@@ -34,7 +34,7 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
         that follows. a: no area above the number that follows; without one those of `regions`, or with r `triangle_max_area`.
         A: attributes of regions. c: all of the hull. D: conforming Delaunay. Y: no new vertices on the border, YY: on no segment.
         S: with so many new vertices at most. O: without holes. j: without vertices that no triangle has. o2: with vertices in
-        the middles of edges. e, n: with edges, neighbours. B, N, E, P: without markers, vertices, triangles, segments.
+        the middles of edges. e, n: with edges, neighbors. B, N, E, P: without markers, vertices, triangles, segments.
         z, v, g, X, I, Q, V, h, i, F, l, s and C change nothing here.
 
     Returns
@@ -76,7 +76,7 @@ def voronoi(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
     """The Voronoi diagram of points.
 
-    Its vertices, which are the circumcentres of `delaunay(pts)`, (t, 2); its edges between two of them, (e, 2); and of its rays
+    Its vertices, which are the circumcenters of `delaunay(pts)`, (t, 2); its edges between two of them, (e, 2); and of its rays
     the vertices where they begin, (r,), and their directions, (r, 2), which are as long as the edges of the hull across.
     """
     tri = Delaunay(as_points(pts, "pts", 2))
@@ -85,4 +85,4 @@ def voronoi(
     origins, across = np.nonzero(tri.neighbors < 0)
     tails, heads = (tri.points[tri.simplices[origins, (across + k) % 3]] for k in (1, 2))
     (dx, dy) = (heads - tails).T
-    return tri._centres(), edges, origins.astype(np.int32), np.column_stack([dy, -dx])
+    return tri._centers(), edges, origins.astype(np.int32), np.column_stack([dy, -dx])

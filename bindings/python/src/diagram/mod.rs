@@ -1,6 +1,6 @@
 //! The arrays of a Voronoi diagram, made from those of its triangulation: vertices, ridges, regions.
 //!
-//! Vertices are circumcentres, rounded. Those of cocircular points are equal, and one vertex here; it is -1 where a ridge or a
+//! Vertices are circumcenters, rounded. Those of cocircular points are equal, and one vertex here; it is -1 where a ridge or a
 //! region is open. Ridges and regions are rows of several lengths, so each is a pair of arrays: where rows start, and what is in them.
 
 mod distinct;
@@ -67,7 +67,7 @@ struct Ridges {
 type Array<'py, T> = Bound<'py, PyArray1<T>>;
 type Table<'py, T> = Bound<'py, PyArray2<T>>;
 
-/// The vertices, for each simplex which of them its centre is, and ridges: their pairs of points, starts and vertices. Without a
+/// The vertices, for each simplex which of them its center is, and ridges: their pairs of points, starts and vertices. Without a
 /// mask all simplices have a vertex; others are infinitely far away.
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "five arrays")]
@@ -75,20 +75,20 @@ pub fn voronoi_ridges<'py>(
     py: Python<'py>,
     simplices: PyReadonlyArray2<'py, i32>,
     neighbors: PyReadonlyArray2<'py, i32>,
-    centres: PyReadonlyArray2<'py, f64>,
+    centers: PyReadonlyArray2<'py, f64>,
     kept: Option<PyReadonlyArray1<'py, bool>>,
 ) -> PyResult<(Table<'py, f64>, Array<'py, i32>, Table<'py, i32>, Array<'py, i64>, Array<'py, i64>)> {
     let count = simplices.shape()[0];
     let kept = kept.map(|kept| kept.to_vec()).transpose()?;
-    if centres.shape()[0] != count || kept.as_ref().is_some_and(|kept| kept.len() != count) {
-        return Err(PyValueError::new_err("a centre for each simplex"));
+    if centers.shape()[0] != count || kept.as_ref().is_some_and(|kept| kept.len() != count) {
+        return Err(PyValueError::new_err("a center for each simplex"));
     }
-    let (vertices, columns, which, ridges) = if centres.shape()[1] == 2 {
+    let (vertices, columns, which, ridges) = if centers.shape()[1] == 2 {
         let corners = indices::<3>(&simplices, 0, usize::MAX)?.to_vec();
         let across = indices::<3>(&neighbors, -1, count)?.to_vec();
-        let centres = rows::<_, 2>(&centres)?.to_vec();
+        let centers = rows::<_, 2>(&centers)?.to_vec();
         let (vertices, which, ridges) = interruptible(py, count, move || {
-            let (vertices, which) = distinct::distinct(&centres, kept.as_deref());
+            let (vertices, which) = distinct::distinct(&centers, kept.as_deref());
             let ridges = plane::ridges(&corners, &across, &which);
             (vertices, which, ridges)
         })?;
@@ -96,9 +96,9 @@ pub fn voronoi_ridges<'py>(
     } else {
         let corners = indices::<4>(&simplices, 0, usize::MAX)?.to_vec();
         let across = indices::<4>(&neighbors, -1, count)?.to_vec();
-        let centres = rows::<_, 3>(&centres)?.to_vec();
+        let centers = rows::<_, 3>(&centers)?.to_vec();
         let (vertices, which, ridges) = interruptible(py, count, move || {
-            let (vertices, which) = distinct::distinct(&centres, kept.as_deref());
+            let (vertices, which) = distinct::distinct(&centers, kept.as_deref());
             let ridges = space::ridges(&corners, &across, &which);
             (vertices, which, ridges)
         })?;

@@ -1,4 +1,4 @@
-//! Ridges and regions of the plane, from triangles and their neighbours.
+//! Ridges and regions of the plane, from triangles and their neighbors.
 
 use super::{Ragged, Ridges};
 
@@ -24,7 +24,7 @@ pub fn ridges(corners: &[[i32; 3]], across: &[[i32; 3]], which: &[i32]) -> Ridge
 
 /// The vertices of the triangles around each of so many points, counter-clockwise; infinity first where the star is open.
 ///
-/// Neighbours alone say who follows whom, for vertices are rounded, so that different ones may be equal: runs of them are one.
+/// Neighbors alone say who follows whom, for vertices are rounded, so that different ones may be equal: runs of them are one.
 pub fn regions(
     points: usize,
     corners: &[[i32; 3]],
@@ -41,7 +41,7 @@ pub fn regions(
             *start = corner;
         }
     }
-    // One star after the other along the triangles, of which neighbours are near each other in memory, and only then by points.
+    // One star after the other along the triangles, of which neighbors are near each other in memory, and only then by points.
     let mut found = Ragged {
         starts: Vec::with_capacity(points + 1),
         items: Vec::with_capacity(3 * corners.len() + points),

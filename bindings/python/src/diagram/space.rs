@@ -1,4 +1,4 @@
-//! Ridges and regions in space, from tetrahedra and their neighbours.
+//! Ridges and regions in space, from tetrahedra and their neighbors.
 
 use std::convert::Infallible;
 use std::ops::Range;
@@ -133,7 +133,7 @@ impl Rows<'_> {
             })?;
             (t, k) = (next, shared);
             ring.push(t);
-            // Neighbours that somebody has written may go around something else for ever.
+            // Neighbors that somebody has written may go around something else for ever.
             if ring.len() > self.corners.len() {
                 return None;
             }

@@ -22,7 +22,7 @@ pub fn neighbors<const W: usize>(simplices: &[[i32; W]]) -> Vec<[i32; W]> {
     found
 }
 
-/// The neighbours of so many points that edges join: where those of each start, and which they are, increasing.
+/// The neighbors of so many points that edges join: where those of each start, and which they are, increasing.
 pub fn around(points: usize, edges: &[[i32; 2]]) -> (Vec<i32>, Vec<i32>) {
     let mut starts = vec![0; points + 1];
     for &point in edges.as_flattened() {

@@ -1,4 +1,4 @@
-//! Arrays derived from the corners of simplices: neighbours, a simplex of each point, maps to barycentric coordinates, planes of lifted
+//! Arrays derived from the corners of simplices: neighbors, a simplex of each point, maps to barycentric coordinates, planes of lifted
 //! simplices. Arrays in, arrays out.
 
 mod barycentric;
@@ -71,7 +71,7 @@ pub fn vertex_to_simplex<'py>(
     Ok(PyArray1::from_vec(py, found))
 }
 
-/// The neighbours of so many points that edges join: where those of each start, and which they are, increasing.
+/// The neighbors of so many points that edges join: where those of each start, and which they are, increasing.
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "two arrays")]
 pub fn vertex_neighbors<'py>(

@@ -113,12 +113,12 @@ fn is_inside(mark: &Mark, star: &[Corners], d: &Delaunay2) -> bool {
 /// The circle of a triangle.
 fn ring(d: &Delaunay2, [a, b, c]: Corners) -> Option<Mark> {
     let t = d.mesh().triangles().find(|&t| turned(d.mesh().corners(t)) == [a, b, c])?;
-    let centre = d.circumcentre(t)?;
+    let center = d.circumcenter(t)?;
     let p = d.point(a);
-    Some(Mark::Ring(centre, (p[0] - centre[0]).hypot(p[1] - centre[1]), Tone::Goal))
+    Some(Mark::Ring(center, (p[0] - center[0]).hypot(p[1] - center[1]), Tone::Goal))
 }
 
-/// The points to come in the colours of their triangles, insertion by insertion.
+/// The points to come in the colors of their triangles, insertion by insertion.
 pub(super) fn lists(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<Sketch>, Error> {
     let points = shuffled(points, seed);
     let mut d = Delaunay2::new();
@@ -160,9 +160,9 @@ pub(super) fn lists(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
 }
 
 /// An instance inserted in the order of its hints: each point is found from the instance of its hint.
-pub(super) fn hints(centres: &[[f64; 2]], radius: f64, seed: u64, most: usize) -> Result<Vec<Sketch>, Error> {
-    let instance = moved(centres, radius, &mut Random::new(seed));
-    let mut hints = Hints2::from_points(centres, HintOrder::Random { seed })?;
+pub(super) fn hints(centers: &[[f64; 2]], radius: f64, seed: u64, most: usize) -> Result<Vec<Sketch>, Error> {
+    let instance = moved(centers, radius, &mut Random::new(seed));
+    let mut hints = Hints2::from_points(centers, HintOrder::Random { seed })?;
     let mut seen = Seen::default();
     hints.triangulate_observed(&instance, &mut seen)?;
     let order: Vec<usize> = hints.order().collect();
@@ -182,9 +182,9 @@ pub(super) fn hints(centres: &[[f64; 2]], radius: f64, seed: u64, most: usize) -
         }
         if let Some(sights) = k.checked_sub(unseen).map(|k| parts[k]).filter(|sights| !sights.is_empty()) {
             let mut marks: Vec<Mark> = sights.iter().filter_map(|(_, t)| triangle(t, Tone::Seen)).collect();
-            marks.extend(centres.iter().map(|&c| Mark::Ring(c, radius, Tone::Faint)));
+            marks.extend(centers.iter().map(|&c| Mark::Ring(c, radius, Tone::Faint)));
             marks.extend(mesh(&d, Tone::Plain));
-            marks.push(Mark::Ring(centres[i], radius, Tone::Goal));
+            marks.push(Mark::Ring(centers[i], radius, Tone::Goal));
             marks.push(Mark::Line([instance[from[k]], instance[i]], Tone::Goal));
             marks.push(Mark::Dot(instance[i], Tone::Goal));
             let caption = format!("{k} inserted, visited from the hint: {}", sights.len());
@@ -201,10 +201,10 @@ pub(super) fn triangle(corners: &[[f64; 2]], tone: Tone) -> Option<Mark> {
 }
 
 /// A radius with which disks are disjoint: half of the least distance.
-pub(super) fn half_of_the_nearest(centres: &[[f64; 2]]) -> Result<f64, Error> {
-    let d = Delaunay2::from_points(centres)?;
+pub(super) fn half_of_the_nearest(centers: &[[f64; 2]]) -> Result<f64, Error> {
+    let d = Delaunay2::from_points(centers)?;
     let mut least = f64::INFINITY;
-    for &p in centres {
+    for &p in centers {
         if let [_, near] = d.k_nearest(p, 2)?[..] {
             let q = d.point(near);
             least = least.min((p[0] / 2.0 - q[0] / 2.0).hypot(p[1] / 2.0 - q[1] / 2.0));

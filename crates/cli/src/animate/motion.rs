@@ -30,7 +30,7 @@ impl Film {
             Moving2::from_points(&positions).map_err(|error| Failure::points(&args.input.label(), &error))?;
         let window = window(&positions);
         let [low, high] = window;
-        // A tenth of the distance of neighbours in an even set.
+        // A tenth of the distance of neighbors in an even set.
         let longer = [0, 1].into_iter().map(|k| high[k] / 2.0 - low[k] / 2.0).fold(0.0, f64::max);
         let radius = args.radius.unwrap_or(0.2 * longer / (positions.len().max(1) as f64).sqrt());
         let random = Random::new(args.seed);

@@ -16,7 +16,7 @@ pub(super) struct Scene {
 /// The pictures of a scene, at most one more than steps.
 pub(super) fn of(points: &[[f64; 2]], args: &AnimateArgs) -> Result<Scene, Error> {
     let mut window = window(points);
-    // Disks reach beyond their centres, and points as far again.
+    // Disks reach beyond their centers, and points as far again.
     let radius = match args.radius {
         Some(radius) => radius,
         None => build::half_of_the_nearest(points)?,

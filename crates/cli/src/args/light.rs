@@ -57,7 +57,7 @@ pub(crate) enum ReliefName {
   delone relief dem.tif --kind slope -o slope.tif
 
 Hillshades are bytes with 0 for no data, slopes and aspects numbers with -9999, as gdaldem has them; level ground has no aspect. Beside no
-data and at the border a cell stands for its neighbours. Of longitude and latitude lengths are those on the ellipsoid, and heights metres
+data and at the border a cell stands for its neighbors. Of longitude and latitude lengths are those on the ellipsoid, and heights metres
 unless the system has others. Where the system names units of x and y and of heights, feet over metres say, slopes heed them; where it names no
 unit of heights, these are in the unit of x and y. A png has a world file beside it.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]

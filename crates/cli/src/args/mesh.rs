@@ -109,7 +109,7 @@ pub(crate) struct MeshArgs {
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) picture_size: u32,
-    /// Meaning of colours in pictures [default: regions, heights or density].
+    /// Meaning of colors in pictures [default: regions, heights or density].
     #[arg(long, value_name = "WHAT")]
     pub(crate) color: Option<ColorName>,
 }
@@ -125,7 +125,7 @@ pub(crate) enum KeepName {
     Constraints,
 }
 
-/// The meaning of colours.
+/// The meaning of colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ColorName {
     /// The smallest angle of each triangle.

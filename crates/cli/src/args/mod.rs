@@ -97,7 +97,7 @@ pub(crate) enum Command {
     Tiles(TilesArgs),
     /// Make a raster of terrain of points with heights: a DEM, with hillshade and contours.
     Dtm(Box<DtmArgs>),
-    /// Interpolate values between points: linear, natural neighbours, smooth.
+    /// Interpolate values between points: linear, natural neighbors, smooth.
     Interpolate(InterpolateArgs),
     /// Cut a part, or an overview, out of a folder of tiles.
     Window(WindowArgs),
@@ -111,7 +111,7 @@ pub(crate) enum Command {
     Nearest(NearestArgs),
     /// The corners of the convex hull in the plane, or its facets in space.
     Hull(HullArgs),
-    /// Join points that are near each other: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest.
+    /// Join points that are near each other: Gabriel graph, relative neighbors, spanning tree, skeletons, k nearest.
     Graph(ProximityArgs),
     /// Find the vertex furthest from each of many points.
     Furthest(FurthestArgs),

@@ -13,7 +13,7 @@ use super::{DimArgs, InputArgs, WeightArgs, WktArgs, count, length};
 #[command(after_help = "Examples:
   delone generate uniform -n 1000000 --seed 1 -o points.npy
   delone generate ellipse2 -n 5000 -o points.csv
-  delone generate disks -n 5000 -o centres.npy
+  delone generate disks -n 5000 -o centers.npy
   delone generate disks -n 5000 --noise 1 -o measured.npy
   delone generate koch -n 3000 -o koch.poly
   delone generate planar-subset -n 100000 -o graph.geojson

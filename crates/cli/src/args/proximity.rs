@@ -19,7 +19,7 @@ use super::{DimArgs, InputArgs};
 A row of npy and csv is an edge: the indices of its ends, the smaller first, rows sorted; csv has a header and the length as
 a third column. Of equal points the first stands for all. npy may be given to --segments of other commands.
 
-On every set of points the edges of the spanning tree are among the relative neighbours, these in the Gabriel graph, and
+On every set of points the edges of the spanning tree are among the relative neighbors, these in the Gabriel graph, and
 that in the Delaunay triangulation; they do not depend on the order of the points.")]
 pub(crate) struct ProximityArgs {
     #[command(flatten)]
@@ -58,11 +58,11 @@ pub(crate) enum ProximityName {
     /// No other point in the closed disk with both ends on a diameter.
     Gabriel,
     /// No other point nearer to both ends than they are to each other.
-    #[value(alias = "relative-neighbors")]
-    RelativeNeighbours,
+    #[value(alias = "relative-neighbours")]
+    RelativeNeighbors,
     /// The Euclidean minimum spanning tree.
     SpanningTree,
-    /// No other point in the open lune of this beta: 1 gives gabriel, 2 the relative neighbours.
+    /// No other point in the open lune of this beta: 1 gives gabriel, 2 the relative neighbors.
     Beta,
     /// One end is among the k points nearest to the other.
     Nearest,

@@ -22,7 +22,7 @@ use crate::message::Failure;
 
 npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
 smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
-on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh files hold the corners
+on the line of its neighbors or inside of a face, and of equal points the first is taken. Mesh files hold the corners
 of the hull alone; pictures show flat faces whole.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]
@@ -189,12 +189,12 @@ impl Merge {
   delone draw points.csv -o picture.svg
   delone draw tile.laz --class 2 -o relief.png --size 3000 --edges=no
   delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
-  delone draw centres.csv --disks 1 --hints -o imprecise.svg
-  delone draw centres.csv --disks 0.5 --certain -o certain.svg
+  delone draw centers.csv --disks 1 --hints -o imprecise.svg
+  delone draw centers.csv --disks 0.5 --certain -o certain.svg
   delone draw plan.poly --crossings split -o plan.svg
 
-What is drawn follows from the room there is; --edges, --points and --colours decide otherwise. Segments are heavier
-lines, regions have colours, and what is outside is faint. With --dim 3 the hull is drawn, or what a cut leaves of the
+What is drawn follows from the room there is; --edges, --points and --colors decide otherwise. Segments are heavier
+lines, regions have colors, and what is outside is faint. With --dim 3 the hull is drawn, or what a cut leaves of the
 tetrahedra.")]
 pub(crate) struct DrawArgs {
     #[command(flatten)]
@@ -221,9 +221,9 @@ pub(crate) struct DrawArgs {
     /// Draw vertices.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
     pub(crate) points: Option<Choice>,
-    /// Colour triangles by region, height or density.
+    /// Color triangles by region, height or density.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
-    pub(crate) colours: Option<Choice>,
+    pub(crate) colors: Option<Choice>,
     /// In the plane, leave out triangles with an edge longer than this, from the hull inwards.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) max_edge: Option<f64>,
@@ -272,7 +272,7 @@ pub(crate) struct AnimateArgs {
     /// Number of steps, at most.
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(..10_000))]
     pub(crate) steps: u32,
-    /// Of motion: how far a point goes in a step at most [default: a fifth of the distance of neighbours in an even set]; of
+    /// Of motion: how far a point goes in a step at most [default: a fifth of the distance of neighbors in an even set]; of
     /// hints: how far an instance is from its hint at most [default: half of the least distance of two points].
     #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
     pub(crate) radius: Option<f64>,

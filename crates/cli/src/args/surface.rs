@@ -15,14 +15,14 @@ use crate::message::Failure;
 pub(crate) enum MethodName {
     /// Linear in each triangle.
     Linear,
-    /// Natural neighbours: what the cell of a place takes from the cells of its neighbours (Sibson).
+    /// Natural neighbors: what the cell of a place takes from the cells of its neighbors (Sibson).
     #[value(alias = "sibson")]
     Natural,
-    /// Natural neighbours: the size of facets over distances (Laplace).
+    /// Natural neighbors: the size of facets over distances (Laplace).
     Laplace,
     /// The value of the nearest point.
     Nearest,
-    /// Natural neighbours with gradients: smooth at the points too (Sibson).
+    /// Natural neighbors with gradients: smooth at the points too (Sibson).
     Smooth,
     /// Smooth at the points too, by a cubic (Farin).
     Farin,
@@ -105,7 +105,7 @@ impl From<CompressName> for Compression {
 
 Outputs by extension: tif (Cloud Optimized GeoTIFF), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
 is a hillshade; geojson, fgb and gpkg have contours, lines with their elevation. Cells begin at multiples of their size, or those from
---origin, around the points or --extent; --like takes the cells of another raster. Values are those of centres.
+--origin, around the points or --extent; --like takes the cells of another raster. Values are those of centers.
 Of LAS and LAZ files ground (class 2) is taken unless --class or --all-classes says otherwise; a folder stands for all such files in it.
 With --memory work is done in tiles on disk, beside the first output: the same values, bit for bit.
 
@@ -214,7 +214,7 @@ pub(crate) struct InterpolateArgs {
         conflicts_with_all = ["grid", "like", "extent", "origin"]
     )]
     pub(crate) queries: Option<PathBuf>,
-    /// Interpolate at the centres of the cells of a raster, whose side this is.
+    /// Interpolate at the centers of the cells of a raster, whose side this is.
     #[arg(
         long,
         value_name = "SIZE",

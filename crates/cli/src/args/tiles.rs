@@ -106,7 +106,7 @@ pub(crate) struct WindowArgs {
     /// An overview of so many points.
     #[arg(long, value_name = "N")]
     pub(crate) points: Option<std::num::NonZero<u64>>,
-    /// In pictures, colour triangles by tile, those of seams apart, and draw the cuts.
+    /// In pictures, color triangles by tile, those of seams apart, and draw the cuts.
     #[arg(long)]
     pub(crate) tiles: bool,
     /// The longer side of pictures in pixels.

@@ -103,7 +103,7 @@ pub(crate) enum AlgorithmName {
     Incremental,
 }
 
-/// Orders in which the centres of imprecise points are inserted.
+/// Orders in which the centers of imprecise points are inserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum HintOrderName {
     /// Along a curve, in biased random rounds: the cache knows it.

@@ -1,6 +1,6 @@
 //! Which cells of a raster are inside of polygons.
 //!
-//! A centre is inside of a polygon if an odd number of its sides is on its left, along its row, where a side has its lower end and not its
+//! A center is inside of a polygon if an odd number of its sides is on its left, along its row, where a side has its lower end and not its
 //! upper one. The predicates say which side of a side it is on, so polygons that share a border share no cell, and leave none out. Where
 //! polygons overlap a cell is inside all the same.
 //!
@@ -85,7 +85,7 @@ fn cross(ring: &[[f64; 2]], grid: &Grid, y: f64, crossed: &mut Vec<usize>) {
     }
 }
 
-/// The first column whose centre in a row is not on the left of a side; columns go east.
+/// The first column whose center in a row is not on the left of a side; columns go east.
 fn first_right(grid: &Grid, low: [f64; 2], high: [f64; 2], y: f64) -> usize {
     let (mut from, mut to) = (0, grid.columns());
     while from < to {

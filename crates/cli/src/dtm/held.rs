@@ -1,9 +1,9 @@
 //! Rows of a raster from tiles on disk.
 //!
-//! Linear: all triangles that meet the rows are painted. Natural neighbours need what is around a place: the triangles that meet the
+//! Linear: all triangles that meet the rows are painted. Natural neighbors need what is around a place: the triangles that meet the
 //! rows and some more are taken, and their corners triangulated, which gives all of these again, since what is empty of all points is
 //! empty of some. Where the triangles whose circles hold a place, and those at their border, are triangles of the whole, its natural
-//! neighbours are those of the whole. Where they are not, more is taken, and these cells are asked again. The corners of the hull are
+//! neighbors are those of the whole. Where they are not, more is taken, and these cells are asked again. The corners of the hull are
 //! always there, so that its border is the border of the whole.
 //!
 //! Memory: some 600 bytes for each point of a band.
@@ -144,7 +144,7 @@ impl Part {
         let mut near = None;
         let mut rest = Vec::new();
         for &cell in open {
-            let q = grid.centre(cell % grid.columns(), cell / grid.columns());
+            let q = grid.center(cell % grid.columns(), cell / grid.columns());
             let found = self.d.surround(near, q, &mut around)?;
             near = found.simplex.or(near);
             let is_real = |t: TriangleId| self.is_real[t.index()];

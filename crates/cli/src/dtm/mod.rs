@@ -229,7 +229,7 @@ impl Job<'_> {
         let crs = self.crs(about);
         let grid = self.grid(&held.bounds, count as f64)?;
         let free = (memory - (40 << 20)) as f64;
-        // A band has its values twice, and where neighbours are asked its points.
+        // A band has its values twice, and where neighbors are asked its points.
         let rows = (free / 8.0 / 16.0 / grid.columns() as f64) as usize;
         if rows == 0 && free < ROW * grid.columns() as f64 {
             let what = format!(
@@ -285,7 +285,7 @@ impl Job<'_> {
         stats.set("no_data", grid.cells() - known as f64);
         stats.phase("write");
         if known == 0 {
-            warn(self.quiet, "no cell has a height: no centre of a cell is in a triangle that is shown");
+            warn(self.quiet, "no cell has a height: no center of a cell is in a triangle that is shown");
         }
         let duplicates = stats.get("duplicates").as_u64().unwrap_or(0);
         if duplicates > 0 {

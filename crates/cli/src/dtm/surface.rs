@@ -105,12 +105,12 @@ pub(super) fn with_lines(
         heights = extended(&c, 1, &heights, |_| None).0;
         let added = c.points().len() - before;
         if added >= most {
-            warn(quiet, "some lines are so near to each other that natural neighbours see across them");
+            warn(quiet, "some lines are so near to each other that natural neighbors see across them");
         }
         if added > 0 {
             note(
                 quiet,
-                format_args!("{added} vertices were added on lines, so that natural neighbours respect them"),
+                format_args!("{added} vertices were added on lines, so that natural neighbors respect them"),
             );
         }
     }

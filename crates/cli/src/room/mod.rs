@@ -88,11 +88,11 @@ pub(crate) trait Room: Change<Point: Drawable> {
 pub(crate) struct Words {
     /// A simplex, and several.
     pub(crate) simplex: [&'static str; 2],
-    /// The word for corners of neighbours that could be divided in another way.
+    /// The word for corners of neighbors that could be divided in another way.
     pub(crate) tied: &'static str,
     /// The words of `check` for simplices in negative order: in statistics, and in a sentence.
     pub(crate) negative: [&'static str; 2],
-    /// And neighbours that are divided in another way than the canonical one.
+    /// And neighbors that are divided in another way than the canonical one.
     pub(crate) other: [&'static str; 2],
 }
 
@@ -140,7 +140,7 @@ pub(crate) fn bounds<P: AsRef<[f64]>>(points: &[P], label: &Path) -> Result<Boun
     Ok(Bounds::of(points.iter().map(coordinates)))
 }
 
-/// Reads points that are asked for, or centres.
+/// Reads points that are asked for, or centers.
 pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>, Failure> {
     R::take_points(&mut files::queries(path, R::Point::COUNT, Vec::new(), quiet)?, path)
 }

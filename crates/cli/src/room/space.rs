@@ -17,7 +17,7 @@ impl Room for Delaunay3 {
         simplex: ["tetrahedron", "tetrahedra"],
         tied: "cospherical",
         negative: ["negative", "in negative order"],
-        other: ["other_ties", "ties between neighbours are broken in another way"],
+        other: ["other_ties", "ties between neighbors are broken in another way"],
     };
     type Algorithm = Algorithm3;
     const FASTEST: Algorithm3 = Algorithm3::Incremental { seed: 0 };

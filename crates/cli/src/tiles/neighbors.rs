@@ -18,7 +18,7 @@ use super::sums::Written;
 use crate::message::Failure;
 use crate::progress::Phase;
 
-/// Nothing is across: the outline, or in a tile what its file of other neighbours has.
+/// Nothing is across: the outline, or in a tile what its file of other neighbors has.
 const NONE: u32 = u32::MAX;
 
 /// An edge of a triangle, opposite to one of its corners.
@@ -31,7 +31,7 @@ struct Side {
     corner: u64,
 }
 
-/// Writes the neighbours of all nodes.
+/// Writes the neighbors of all nodes.
 pub(super) fn write(
     folder: &Path,
     plan: &Manifest,
@@ -39,7 +39,7 @@ pub(super) fn write(
     quiet: bool,
 ) -> Result<Written, Failure> {
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
-    let phase = Phase::count(quiet, "finding neighbours", nodes.len() as u64);
+    let phase = Phase::count(quiet, "finding neighbors", nodes.len() as u64);
     let (mut waiting, mut written) = (Vec::new(), Written::new());
     for done in &nodes {
         if plan.cuts.is_tile(done.node) {
@@ -81,7 +81,7 @@ pub(super) fn write(
     Ok(written)
 }
 
-/// The neighbours inside of a tile; what has none there waits.
+/// The neighbors inside of a tile; what has none there waits.
 fn in_tile(
     folder: &Path,
     done: &Done,

@@ -1,5 +1,5 @@
 //! Hashes of what files of a folder have in them, taken while they are written, so that a change of any byte is noticed: also of what no
-//! proof can know, as indices, heights and neighbours.
+//! proof can know, as indices, heights and neighbors.
 //!
 //! Source: XXH3 of 64 bits (Collet), which `xxhsum -H3` prints too. It is for accidents, not against somebody who wants to deceive.
 //!
@@ -128,7 +128,7 @@ fn of_file(path: &Path) -> io::Result<u64> {
     }
 }
 
-/// Whether all files of a folder that are named as shards are known: a run that was stopped while it wrote neighbours or tables leaves
+/// Whether all files of a folder that are named as shards are known: a run that was stopped while it wrote neighbors or tables leaves
 /// some that nobody vouches for.
 pub(super) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Failure> {
     const KINDS: [&str; 6] = ["points-", "ids-", "triangles-", "seam-", "neighbors-", "across-"];
@@ -145,7 +145,7 @@ pub(super) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Failure>
     match names.into_iter().find(|name| is_shard(name) && !is_known(name)) {
         Some(name) => {
             let what = format!("{}: tiles.json does not know it", folder.join(&name).display());
-            let help = "if delone tiles was stopped while it wrote neighbours or tables, go on with --resume; or remove it";
+            let help = "if delone tiles was stopped while it wrote neighbors or tables, go on with --resume; or remove it";
             Err(Failure::new(what, help))
         }
         None => Ok(()),

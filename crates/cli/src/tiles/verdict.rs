@@ -4,7 +4,7 @@
 //! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
 //! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all, Delaunay.
 //! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams. What no
-//! proof can know (which index is whose, heights, neighbours, tables) is held to the hashes of what was written.
+//! proof can know (which index is whose, heights, neighbors, tables) is held to the hashes of what was written.
 //!
 //! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, for all edges between tiles, and a bit
 //! for each point.

@@ -26,7 +26,7 @@ use crate::stats::Stats;
 
 /// The largest number of triangles that become one mesh without a box.
 const MAX_TRIANGLES_WITHOUT_BOX: u64 = 20_000_000;
-/// In a picture the triangles of a tile have one of so many colours, and those of seams another.
+/// In a picture the triangles of a tile have one of so many colors, and those of seams another.
 const COLOURS: u32 = 7;
 
 /// A name that is of no point.
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let d = Delaunay2::from_points(&points).map_err(|error| Failure::points(&args.folder, &error))?;
     let origin = |t| part.triangles.get(&sorted(d.corners(t).map(|v| names[v.index()])));
     let trim = args.points.is_none().then(|| Trim::keeping(&d, |t| origin(t).is_some()));
-    let regions: Option<Vec<f64>> = args.tiles.then(|| colours(&d, |t| origin(t).copied().flatten()));
+    let regions: Option<Vec<f64>> = args.tiles.then(|| colors(&d, |t| origin(t).copied().flatten()));
     stats.phase("build");
     let shown = trim.as_ref().map_or(0, Trim::count);
     stats.set("points", plan.count);
@@ -212,12 +212,12 @@ fn sorted(mut ids: [u64; 3]) -> [u64; 3] {
 }
 
 /// For each triangle, by its index, a number for its tile; that of seams is another one.
-fn colours(d: &Delaunay2, tile: impl Fn(TriangleId) -> Option<Node>) -> Vec<f64> {
-    let mut colours = vec![0.0; d.slot_count()];
+fn colors(d: &Delaunay2, tile: impl Fn(TriangleId) -> Option<Node>) -> Vec<f64> {
+    let mut colors = vec![0.0; d.slot_count()];
     for t in d.simplices() {
-        colours[d.index(t)] = tile(t).map_or(0.0, |node| f64::from(1 + node.number() % COLOURS));
+        colors[d.index(t)] = tile(t).map_or(0.0, |node| f64::from(1 + node.number() % COLOURS));
     }
-    colours
+    colors
 }
 
 /// The cuts as far as they are in the window and the box of the points.

@@ -312,7 +312,7 @@ impl<'a> Given<'a> {
         bytes[start..].chunks_exact(8).map(|c| f64::from_le_bytes(c.try_into().expect("eight"))).collect()
     }
 
-    /// The cells of a raster of heights by their centres.
+    /// The cells of a raster of heights by their centers.
     pub(super) fn raster(&self, name: &str, cell: f64) -> Vec<Shape> {
         let cell = self.length(cell * self.set.unit, 1);
         let all = || self.points.iter().map(|&p| self.to(p));

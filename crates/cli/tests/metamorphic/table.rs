@@ -226,7 +226,7 @@ pub(super) const PLANE: &[Row] = &[
         moved
     }),
     ("graph --kind gabriel", |g| edges(g, "--kind gabriel")),
-    ("graph --kind relative-neighbours", |g| edges(g, "--kind relative-neighbours")),
+    ("graph --kind relative-neighbors", |g| edges(g, "--kind relative-neighbors")),
     ("graph --kind spanning-tree", |g| edges(g, "--kind spanning-tree")),
     ("graph --kind beta", |g| edges(g, "--kind beta --beta 1.5")),
     ("graph --kind nearest", |g| edges(g, "--kind nearest -k 3")),
@@ -241,8 +241,8 @@ pub(super) const PLANE: &[Row] = &[
         let mut shapes = answers(g, "furthest p.csv --stats s.json", |row| g.point(row[0]).to_vec());
         let circle = &g.json("s.json")["enclosing_circle"];
         let number = |value: &serde_json::Value| value.as_f64().expect("a number");
-        let centre = g.back([number(&circle["centre"][0]), number(&circle["centre"][1]), 0.0]);
-        shapes.push([centre.to_vec(), vec![g.length_back(number(&circle["radius"]), 1)]].concat());
+        let center = g.back([number(&circle["center"][0]), number(&circle["center"][1]), 0.0]);
+        shapes.push([center.to_vec(), vec![g.length_back(number(&circle["radius"]), 1)]].concat());
         let support = circle["support"].as_array().expect("a list");
         shapes.push(g.corners(&support.iter().map(number).collect::<Vec<_>>()));
         shapes
@@ -390,7 +390,7 @@ pub(super) const SPACE: &[Row] = &[
         [facets(g, "h.csv"), g.obj("h.obj")].concat()
     }),
     ("graph --dim 3 --kind gabriel", |g| edges(g, "--dim 3 --kind gabriel")),
-    ("graph --dim 3 --kind relative-neighbours", |g| edges(g, "--dim 3 --kind relative-neighbours")),
+    ("graph --dim 3 --kind relative-neighbors", |g| edges(g, "--dim 3 --kind relative-neighbors")),
     ("graph --dim 3 --kind spanning-tree", |g| edges(g, "--dim 3 --kind spanning-tree")),
     ("graph --dim 3 --kind nearest", |g| edges(g, "--dim 3 --kind nearest -k 3")),
     ("alpha --dim 3 --filtration", |g| filtration(g, "--dim 3")),

@@ -1,8 +1,8 @@
-//! The Gabriel graph among neighbours, in any dimension.
+//! The Gabriel graph among neighbors, in any dimension.
 //!
 //! If a vertex is in the closed ball with diameter ab, so is one that forms a triangle with the edge ab: the ball's
-//! centre is in the face of the Voronoi diagram that parts a and b unless one that cuts this face out is as near, and under the
-//! canonical rule those that do are joined with both. So the neighbours of one end are enough.
+//! center is in the face of the Voronoi diagram that parts a and b unless one that cuts this face out is as near, and under the
+//! canonical rule those that do are joined with both. So the neighbors of one end are enough.
 //!
 //! Cost: the sum of squared degrees at worst, and few tests an edge where it is none of the graph.
 

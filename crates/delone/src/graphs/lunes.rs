@@ -1,11 +1,11 @@
 //! Edges whose open lune is empty, among those of the Gabriel graph, in any dimension.
 //!
-//! Any vertex may be in a lune, not only neighbours of its ends. But the vertices in a ball are connected by edges between
+//! Any vertex may be in a lune, not only neighbors of its ends. But the vertices in a ball are connected by edges between
 //! them, and both ends are in the smallest ball around their lune: so what is in it is found from them, through vertices that are
 //! not surely outside of that ball. Where these are many, as between two rows that are far apart, a tree of boxes over the
 //! vertices leaves out those outside of the lune itself.
 //!
-//! Cost: an edge a few vertices where points are evenly spread; most edges that are none of the graph are told by a neighbour.
+//! Cost: an edge a few vertices where points are evenly spread; most edges that are none of the graph are told by a neighbor.
 //! Otherwise O(log n) between rows along the axes, O(sqrt n) between others that are as far apart as they are long, and O(n) where
 //! many are on the lune's border, or nearly.
 
@@ -156,6 +156,6 @@ pub(crate) fn looks<const D: usize>(net: &Net<D>, among: &[[Place; 2]], beta: f6
         let [a, b] = net.ranks(**edge).map(|v| *net.point(v));
         !boxes.any_inside(&Lune::new(a, b, beta), &mut search)
     };
-    assert!(among.iter().filter(empty).eq(found.iter().copied()), "boxes and neighbours differ");
+    assert!(among.iter().filter(empty).eq(found.iter().copied()), "boxes and neighbors differ");
     (looked, found.len())
 }

@@ -1,11 +1,11 @@
-//! Proximity graphs of the vertices: who is a neighbour of whom, by what is near an edge.
+//! Proximity graphs of the vertices: who is a neighbor of whom, by what is near an edge.
 //!
-//! On every set the spanning tree is part of the relative neighbours, these of the Gabriel graph, and that of the Delaunay
+//! On every set the spanning tree is part of the relative neighbors, these of the Gabriel graph, and that of the Delaunay
 //! triangulation, because of what is open and what is closed: a vertex on the border of the disk with diameter ab is strictly
 //! inside of the lune. So each is a function of the set alone, where both diagonals of a square would be edges of a Gabriel
 //! graph with open disks, and no triangulation has both.
 //!
-//! Sources: Gabriel and Sokal 1969; Toussaint, "The relative neighbourhood graph of a finite planar set", 1980, which
+//! Sources: Gabriel and Sokal 1969; Toussaint, "The relative neighborhood graph of a finite planar set", 1980, which
 //! proves the inclusions in general position; Kirkpatrick and Radke 1985 for lunes of any size. A file each: `gabriel`,
 //! `lunes` (what is inside of any lune), `tree`, `nearest`; `net` holds who is joined with whom.
 
@@ -29,7 +29,7 @@ pub(crate) use net::Net;
 /// A proximity graph of the vertices of a triangulation; in space disks are balls. For [`Delaunay2::graph`] and
 /// [`Delaunay3::graph`].
 ///
-/// Tree, relative neighbours, lunes from 2 down, Gabriel graph, Delaunay triangulation: each is part of the next, on every set.
+/// Tree, relative neighbors, lunes from 2 down, Gabriel graph, Delaunay triangulation: each is part of the next, on every set.
 ///
 /// [`Delaunay2::graph`]: crate::Delaunay2::graph
 /// [`Delaunay3::graph`]: crate::Delaunay3::graph
@@ -46,10 +46,10 @@ pub enum Graph {
     /// lexicographically smaller end and then of the other; each that closes no ring is in. O(n log n) after the Gabriel graph.
     SpanningTree,
     /// The skeleton of lunes: pairs whose lune holds no other vertex, the meeting of two disks of radius beta/2 times the
-    /// distance, each with one of both on its border and its centre on the ray from there through the other one.
+    /// distance, each with one of both on its border and its center on the ray from there through the other one.
     ///
     /// Beta is at least 1: below, a skeleton has edges that the triangulation has not. For 1 the lune is the disk with both on
-    /// a diameter, and closed: the Gabriel graph. Above 1 it is open: 2 gives the relative neighbours, and a larger beta part of the
+    /// a diameter, and closed: the Gabriel graph. Above 1 it is open: 2 gives the relative neighbors, and a larger beta part of the
     /// edges of a smaller one. Cost as for these; with beta the lunes reach further.
     Beta(f64),
     /// Pairs of which one is among so many vertices nearest to the other. Of equally near ones the lexicographically smaller are

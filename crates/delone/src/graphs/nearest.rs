@@ -1,7 +1,7 @@
 //! Each vertex and those nearest to it, in any dimension.
 //!
-//! The k + 1 nearest vertices are the k nearest and a neighbour of one of them (`locate/nearest.rs`), so they are found one by
-//! one among the neighbours of those before.
+//! The k + 1 nearest vertices are the k nearest and a neighbor of one of them (`locate/nearest.rs`), so they are found one by
+//! one among the neighbors of those before.
 //!
 //! Cost: O(k log k) comparisons a vertex where degrees are bounded.
 

@@ -1,4 +1,4 @@
-//! Who is joined with whom, for searches that ask each vertex several times: coordinates and neighbours of all vertices, in
+//! Who is joined with whom, for searches that ask each vertex several times: coordinates and neighbors of all vertices, in
 //! the order in which a curve comes to them, so that what is near is near in memory.
 
 use std::collections::BTreeSet;
@@ -9,14 +9,14 @@ use crate::ids::Place;
 use crate::parallel;
 use crate::prefetch::prefetch;
 
-/// The vertices with their neighbours; each is known by its rank in the order.
+/// The vertices with their neighbors; each is known by its rank in the order.
 pub(crate) struct Net<const D: usize> {
     /// For each rank a place, and its coordinates.
     places: Vec<Place>,
     pub(super) points: Vec<[f64; D]>,
     /// For each place a rank.
     ranks: Vec<u32>,
-    /// For each rank where its neighbours begin; those of the next one follow.
+    /// For each rank where its neighbors begin; those of the next one follow.
     starts: Vec<usize>,
     joined: Vec<u32>,
 }

@@ -1,10 +1,10 @@
 //! Corners of a hull in the plane that are within a length of the hull of the others are left out.
 //!
-//! In rounds each corner is measured against the segment between its neighbours, and of those within the length the nearest go first, no
-//! two neighbours in one round. A point that was left out belongs to the side that took its place, and must stay within the length of each
+//! In rounds each corner is measured against the segment between its neighbors, and of those within the length the nearest go first, no
+//! two neighbors in one round. A point that was left out belongs to the side that took its place, and must stay within the length of each
 //! side that follows. In space `space/merge.rs` does the same.
 //!
-//! After the first round only the neighbours of corners that went are measured again.
+//! After the first round only the neighbors of corners that went are measured again.
 //!
 //! Cost: O(n log n) for n corners, and O(m) for each corner that is measured with m points left out beside it.
 
@@ -30,7 +30,7 @@ struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    /// The distance of a corner from the segment between its neighbours, as a part of the length; none if it, or a point that was left out
+    /// The distance of a corner from the segment between its neighbors, as a part of the length; none if it, or a point that was left out
     /// beside it, is further away than the length.
     fn height(&self, k: usize) -> Option<f64> {
         let away = |p: usize| part(self.points, self.ends[k], p, self.length);
@@ -59,7 +59,7 @@ pub(super) fn left(
     let ends = (0..all).map(|k| [(k + all - 1) % all, (k + 1) % all]).collect();
     let mut ring = Ring { points: &points, length, ends, out: vec![Vec::new(); all] };
     let mut left: Vec<usize> = (0..all).collect();
-    // A corner that did not go, and whose neighbours are the same still, does not go now.
+    // A corner that did not go, and whose neighbors are the same still, does not go now.
     let mut changed = left.clone();
     let (mut stays, mut goes) = (vec![0; all], vec![false; all]);
     for round in 1.. {

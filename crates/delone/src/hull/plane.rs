@@ -79,7 +79,7 @@ impl Hull2 {
     }
 
     /// The corners as indices of points: counter-clockwise from the lexicographically smallest, none on the line of its
-    /// neighbours. Two for points on a line, one for equal points.
+    /// neighbors. Two for points on a line, one for equal points.
     pub fn corners(&self) -> &[usize] {
         &self.corners
     }

@@ -34,7 +34,7 @@ pub enum Nearest {
     /// The nearest vertex, by searching outwards from that triangle and crossing an edge only if the angle at its nearer end,
     /// towards the query, is acute (§2.2). In space by following edges downhill.
     Exact,
-    /// The nearest vertex, among the corners of all triangles whose circles contain the query (§5.2): its neighbours, if it were
+    /// The nearest vertex, among the corners of all triangles whose circles contain the query (§5.2): its neighbors, if it were
     /// a vertex, which are fewer than six on average over queries that are random ones of the points. In the plane.
     InCircle,
 }

@@ -5,7 +5,7 @@
 //! implements with its predicates.
 //!
 //! Costs are for queries that are spread as the points are; one beside two curves, in a triangle that would have much of the
-//! set for neighbours, may visit any number on the way.
+//! set for neighbors, may visit any number on the way.
 //!
 //! | strategy | source | expected cost of a query | choose it |
 //! | --- | --- | --- | --- |
@@ -139,7 +139,7 @@ pub(crate) trait Ground {
     /// A coordinate, for trees and hashes; no decision hangs on it.
     fn coordinate(q: Self::Point, axis: usize) -> f64;
 
-    /// Asks memory for the neighbourhood of a hint all at once; a walk would ask piece by piece, and wait each
+    /// Asks memory for the neighborhood of a hint all at once; a walk would ask piece by piece, and wait each
     /// time.
     fn prefetch_around(&self, hint: Self::Hint);
 

@@ -1,7 +1,7 @@
 //! Vertices by distance, along edges: nearest, k nearest, within a radius; in the plane and in space.
 //!
-//! Why following edges is enough: of the neighbours of a vertex that is not nearest to q one is nearer, so a
-//! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbour of one of them; and the
+//! Why following edges is enough: of the neighbors of a vertex that is not nearest to q one is nearer, so a
+//! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbor of one of them; and the
 //! vertices within a radius are connected by edges between them (all three because the edges contain those of the
 //! Delaunay graph).
 //!
@@ -23,7 +23,7 @@ pub(crate) trait Metric: Ground {
     /// Whether a vertex is at most `radius` away from `q`.
     fn is_within(&self, q: Self::Point, v: Place, radius: f64) -> bool;
 
-    /// Calls for each neighbour of a vertex.
+    /// Calls for each neighbor of a vertex.
     fn beside(&self, v: Place, each: impl FnMut(Place));
 }
 

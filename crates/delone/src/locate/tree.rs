@@ -7,7 +7,7 @@
 //!
 //! What a query waits for is memory. Three levels of the tree share a cache line, the lowest three share it with
 //! their eight hints, and all lines above the lowest are a hundredth of the vertices' own memory. The eight lines
-//! below a line are neighbours, and are asked for before the line itself has come: two levels arrive in the time of
+//! below a line are neighbors, and are asked for before the line itself has come: two levels arrive in the time of
 //! one. The splits of the lowest lines are rounded, which a hint can bear.
 //!
 //! Cost: a query O(log n) comparisons, then a walk of O(1) expected triangles; four bytes a vertex. Building O(n log

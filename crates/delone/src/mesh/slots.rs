@@ -1,4 +1,4 @@
-//! Free slots among used ones, found near where they are wanted: neighbours in the plane stay neighbours in
+//! Free slots among used ones, found near where they are wanted: neighbors in the plane stay neighbors in
 //! memory.
 //!
 //! Cost: O(1); one bit a slot.

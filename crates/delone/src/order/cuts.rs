@@ -1,6 +1,6 @@
-//! The tree on which divide and conquer works, as cuts between neighbours in an order.
+//! The tree on which divide and conquer works, as cuts between neighbors in an order.
 //!
-//! Each cut has a depth, counted from the box that holds both its neighbours: the shallowest cut of a run divides it. Depth
+//! Each cut has a depth, counted from the box that holds both its neighbors: the shallowest cut of a run divides it. Depth
 //! tells the size of the cell that the cut divides and, by its parity, the axis. The cuts alone are the tree, so no tree is
 //! stored.
 
@@ -58,7 +58,7 @@ impl KeyBox {
     }
 }
 
-/// The cut between two neighbours: larger is deeper. [`Cut::OUTSIDE`] is shallower than all.
+/// The cut between two neighbors: larger is deeper. [`Cut::OUTSIDE`] is shallower than all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 pub(crate) struct Cut(u8);
 

@@ -9,7 +9,7 @@ mod radix;
 pub(crate) mod random;
 pub(crate) mod space;
 
-/// In which order centres are inserted, and instances after them.
+/// In which order centers are inserted, and instances after them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HintOrder {

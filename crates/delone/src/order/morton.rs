@@ -1,6 +1,6 @@
-//! Morton order with the cuts between neighbours: the tree on which divide and conquer works.
+//! Morton order with the cuts between neighbors: the tree on which divide and conquer works.
 //!
-//! Points are sorted by the interleaved bits of their cells (x first). Between two neighbours in that order
+//! Points are sorted by the interleaved bits of their cells (x first). Between two neighbors in that order
 //! runs the cut of the first bit in which their keys differ.
 //!
 //! Keys have three bits more than log2 n, and as many more as radix passes of the same number can take; a few points have
@@ -34,7 +34,7 @@ pub(crate) struct Sorted {
     pub(crate) points: Vec<[f64; 2]>,
     /// Their input indices.
     pub(crate) indices: Vec<u32>,
-    /// For each point the cut before it, relative to the box that holds both neighbours.
+    /// For each point the cut before it, relative to the box that holds both neighbors.
     pub(crate) cuts: Vec<Cut>,
     /// The boxes, outermost first, each before those nested in it.
     pub(crate) boxes: Vec<KeyBox>,

@@ -134,7 +134,7 @@ impl Delaunay2 {
                 let ends = || [from, to].map(|k| ring.vertices[k as usize]);
                 let tip = mesh.tip(edge);
                 if tip.is_ghost() {
-                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (fixed.centre(), ())) {
+                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (fixed.center(), ())) {
                         return around.stop_at_hull();
                     }
                     border.push((ends(), mesh.twin(edge).triangle()));

@@ -1,7 +1,7 @@
 //! Insertion, removal and motion of vertices, with their names.
 //!
 //! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again, until
-//! [`Delaunay2::compact`] gives new ones. What is inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
+//! [`Delaunay2::compact`] gives new ones. What is inserted is laid out near its neighbors in memory; when the number of vertices has doubled, or hints have
 //! grown old, everything is laid out in memory as in the plane again, which costs O(log n) amortized.
 
 use super::Delaunay2;

@@ -111,7 +111,7 @@ pub(super) fn check_geometry<K: Kernel>(layer: &Layer<K>) -> Result<(), Flaw2> {
     }
 }
 
-/// All vertices, in lexicographic order and on one line, none hidden by its neighbours.
+/// All vertices, in lexicographic order and on one line, none hidden by its neighbors.
 fn check_line<K: Kernel>(layer: &Layer<K>) -> Result<(), Flaw2> {
     let mesh = &layer.mesh;
     let chain: Vec<_> = mesh.border().collect();

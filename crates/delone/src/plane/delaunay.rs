@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use delone_predicates::circumcentre;
+use delone_predicates::circumcenter;
 
 use super::change::Upkeep;
 use super::construct::{self, Algorithm2, Built, InOrder};
@@ -26,7 +26,7 @@ use crate::tally::{Counters, Work};
 /// removed and moved at any time, and what is left is the triangulation of what is left. Sets that span less than
 /// the plane (no point, one point, collinear points) are valid triangulations without triangles.
 ///
-/// The combinatorial questions (neighbours, stars, hull) are answered by [`Delaunay2::mesh`].
+/// The combinatorial questions (neighbors, stars, hull) are answered by [`Delaunay2::mesh`].
 ///
 /// ```
 /// use delone::Delaunay2;
@@ -284,14 +284,14 @@ impl Delaunay2 {
         twice(corners.map(|p| [p[0] * scale[0], p[1] * scale[1]])) / 2.0 / scale[0] / scale[1]
     }
 
-    /// The centre of the circle through the corners of a finite triangle, correctly rounded (see
-    /// [`delone_predicates::circumcentre`]), in coordinate units. `None` for a ghost, and where it is too far away for `f64`. O(1).
-    pub fn circumcentre(&self, t: TriangleId) -> Option<[f64; 2]> {
+    /// The center of the circle through the corners of a finite triangle, correctly rounded (see
+    /// [`delone_predicates::circumcenter`]), in coordinate units. `None` for a ghost, and where it is too far away for `f64`. O(1).
+    pub fn circumcenter(&self, t: TriangleId) -> Option<[f64; 2]> {
         if self.mesh().is_ghost(t) {
             return None;
         }
         let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
-        circumcentre(a, b, c)
+        circumcenter(a, b, c)
     }
 
     /// Becomes the triangulation of other points, with vertices at places along a curve.

@@ -1,12 +1,12 @@
 //! Edges that imprecise points certainly or possibly have: the strong and the weak problem for disks of one radius.
 //!
-//! Each point is somewhere in a closed disk of radius r around its centre; an *instance* takes one from each. Which pairs are
+//! Each point is somewhere in a closed disk of radius r around its center; an *instance* takes one from each. Which pairs are
 //! an edge in every instance (strong), which in some instance (weak)? Source: Devillers, "Delaunay triangulation of imprecise
 //! points", JoCG 2011, §1, which names both; the strong one is that of Evans and Sember, "Guaranteed Voronoi diagrams of
-//! uncertain sites", CCCG 2008. With d_i the distance of a place c from centre i, for pairs of different centres:
+//! uncertain sites", CCCG 2008. With d_i the distance of a place c from center i, for pairs of different centers:
 //!
 //! - *possible*: there is a c with max(d_i, d_j) <= d_k + 2 r for all other k. A circle about c meets disks i and j, and every
-//!   other point can stay out of it. Towards the further of both centres the condition stays true, so c may be on their bisector.
+//!   other point can stay out of it. Towards the further of both centers the condition stays true, so c may be on their bisector.
 //! - *certain*: disks i and j are apart, and there is a c with max(d_i, d_j) + 2 r < d_k for all other k. The circle about c
 //!   around disks i and j leaves all others outside, and a smaller one goes through both points. Again c may be on the
 //!   bisector.
@@ -16,14 +16,14 @@
 //! of theirs. In the second there is a circle that disks i and j touch from inside and that two other points can be in or
 //! on, one on each side of its chord. So these are the strong and the weak problem themselves, not an approximation.
 //!
-//! What is searched: the vertices in any closed disk induce a connected part of the triangulation of the centres, because each
-//! vertex has a neighbour nearer to c unless it is nearest. So, if any k spoils c for a certain edge, a neighbour of i or j does;
+//! What is searched: the vertices in any closed disk induce a connected part of the triangulation of the centers, because each
+//! vertex has a neighbor nearer to c unless it is nearest. So, if any k spoils c for a certain edge, a neighbor of i or j does;
 //! possible partners of i are connected with i through possible partners; and whatever comes in the way of a pair about c is
 //! connected with i inside of the circle about c through i and j.
 //!
 //! Cost, after the triangulation: certain edges the sum of squared degrees, O(n) where degrees are bounded. Possible ones a
 //! search a tested pair, of the vertices in the circles that nothing is in the way of yet: a few where disks overlap little and
-//! centres are evenly spread, more along the hull, whose circles are large; O(n^4) at worst, and where disks overlap much there
+//! centers are evenly spread, more along the hull, whose circles are large; O(n^4) at worst, and where disks overlap much there
 //! are O(n^2) to report.
 
 use std::collections::VecDeque;

@@ -6,20 +6,20 @@
 //!
 //! Source: Chew, "Building Voronoi diagrams for convex polygons in linear expected time", TR PCS-TR90-147, 1990:
 //! corners are taken away in random order and put back, each beyond the edge that it left. Queries climb from
-//! neighbour to neighbour through random samples of the corners, from coarse to fine, as in the Delaunay hierarchy:
-//! a vertex of a convex polytope that no neighbour excels is the best.
+//! neighbor to neighbor through random samples of the corners, from coarse to fine, as in the Delaunay hierarchy:
+//! a vertex of a convex polytope that no neighbor excels is the best.
 //!
-//! A neighbour that is further away is found by binary search. With r = q - v a neighbour v + a is as far from q as v is, or nearer,
-//! if 2 r.a / |a|^2 is 1 or more. Inverted at v, as a / |a|^2, the neighbours in their order are a convex chain that faces v. Along it
+//! A neighbor that is further away is found by binary search. With r = q - v a neighbor v + a is as far from q as v is, or nearer,
+//! if 2 r.a / |a|^2 is 1 or more. Inverted at v, as a / |a|^2, the neighbors in their order are a convex chain that faces v. Along it
 //! the product with r falls to the least and rises from there; or, if q is on the other side of v, it is negative throughout.
 //!
 //! Cost: O(h) expected after the hull of h corners is known. A query O(log h) steps expected, each of them O(log d) comparisons at a
-//! corner with d neighbours, so O(log^2 h): each level is a random eighth of the one below, where seven corners on average are
+//! corner with d neighbors, so O(log^2 h): each level is a random eighth of the one below, where seven corners on average are
 //! further away than the furthest of the sample, and each step goes to one of them.
 
 use std::ops::Range;
 
-use delone_predicates::{Sign, angle, centre_side, circumcentre, compare_distances, lexicographic};
+use delone_predicates::{Sign, angle, center_side, circumcenter, compare_distances, lexicographic};
 
 use super::layer::Layer;
 use super::layer::insert::Spot;
@@ -48,7 +48,7 @@ const SMALLEST: usize = 4;
 /// let furthest = d.furthest();
 /// assert_eq!(furthest.furthest([4.0, 3.0])?.map(|v| v.index()), Some(0));
 /// let circle = furthest.enclosing_circle().unwrap();
-/// assert_eq!((circle.centre, circle.radius), ([2.0, 1.5], 2.5));
+/// assert_eq!((circle.center, circle.radius), ([2.0, 1.5], 2.5));
 /// # Ok::<(), delone::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -65,7 +65,7 @@ struct Level {
     points: Vec<[f64; 2]>,
     /// Over the indices of the points; fewer than three have no triangles.
     mesh: Mesh2,
-    /// For each point where its neighbours begin, and at last their number.
+    /// For each point where its neighbors begin, and at last their number.
     starts: Vec<u32>,
     /// Counter-clockwise around each point those it is joined to, from the next one along the hull to the one before.
     around: Vec<u32>,
@@ -77,8 +77,8 @@ struct Level {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EnclosingCircle {
-    /// Its centre, rounded.
-    pub centre: [f64; 2],
+    /// Its center, rounded.
+    pub center: [f64; 2],
     /// Its radius, rounded, in coordinate units.
     pub radius: f64,
     /// The points that determine it: the only one, two at the ends of a diameter, or three around it.
@@ -109,18 +109,18 @@ impl Delaunay2 {
 }
 
 impl Level {
-    /// Triangulates the corners of a convex polygon, counter-clockwise and none on the line of its neighbours.
+    /// Triangulates the corners of a convex polygon, counter-clockwise and none on the line of its neighbors.
     fn new(points: Vec<[f64; 2]>, finer: Vec<u32>) -> Self {
         let n = points.len();
         if n < 3 {
-            // Of two corners each is the other's only neighbour.
+            // Of two corners each is the other's only neighbor.
             let (starts, around) =
                 if n == 2 { (vec![0, 1, 2], vec![1, 0]) } else { (vec![0; n + 1], vec![]) };
             return Self { points, mesh: Mesh2::empty(n), starts, around, finer };
         }
         let mut order: Vec<usize> = (0..n).collect();
         SplitMix(n as u64).shuffle(&mut order);
-        // The neighbours of each corner when it is taken away.
+        // The neighbors of each corner when it is taken away.
         let mut previous: Vec<usize> = (0..n).map(|i| (i + n - 1) % n).collect();
         let mut next: Vec<usize> = (0..n).map(|i| (i + 1) % n).collect();
         for &i in order[3..].iter().rev() {
@@ -157,7 +157,7 @@ impl Level {
         &self.around[self.starts[at] as usize..self.starts[at + 1] as usize]
     }
 
-    /// Where among the neighbours of a corner the first of those is that excel it most, seen from `q`.
+    /// Where among the neighbors of a corner the first of those is that excel it most, seen from `q`.
     fn best<T: Tally>(&self, at: usize, q: [f64; 2], tally: &mut T) -> usize {
         let joined = self.neighbors(at);
         first(0..joined.len().saturating_sub(1), |k| {
@@ -165,14 +165,14 @@ impl Level {
         })
     }
 
-    /// Whether the second of two neighbours in a row excels a corner less than the first.
+    /// Whether the second of two neighbors in a row excels a corner less than the first.
     fn rises<T: Tally>(&self, at: usize, pair: [u32; 2], q: [f64; 2], tally: &mut T) -> Sign {
         tally.compared();
         let [a, b] = pair.map(|w| self.points[w as usize]);
-        centre_side(self.points[at], a, b, q)
+        center_side(self.points[at], a, b, q)
     }
 
-    /// Climbs from a corner to one that no neighbour is further away than.
+    /// Climbs from a corner to one that no neighbor is further away than.
     fn climb<T: Tally>(&self, start: usize, q: [f64; 2], tally: &mut T) -> usize {
         let mut at = start;
         while let Some(&w) = self.neighbors(at).get(self.best(at, q, tally)) {
@@ -185,7 +185,7 @@ impl Level {
         at
     }
 
-    /// The neighbours that are as far away as a corner which none is further away than: they are in a row.
+    /// The neighbors that are as far away as a corner which none is further away than: they are in a row.
     fn ties<T: Tally>(&self, at: usize, q: [f64; 2], tally: &mut T) -> &[u32] {
         let joined = self.neighbors(at);
         let begin = self.best(at, q, tally);
@@ -243,14 +243,14 @@ impl Furthest2 {
     /// The edges of the furthest-site Voronoi diagram, with the two sites that are furthest from each.
     pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], VoronoiEdge2)> + '_ {
         let Level { mesh, points, .. } = &self.levels[0];
-        let centre = |e: EdgeId| {
+        let center = |e: EdgeId| {
             let corners = mesh.places(e.triangle());
             let [a, b, c] = corners.map(|p| points.get(p.index()).copied().unwrap_or_default());
-            if corners.iter().any(|p| p.is_ghost()) { None } else { circumcentre(a, b, c) }
+            if corners.iter().any(|p| p.is_ghost()) { None } else { circumcenter(a, b, c) }
         };
         let dual = move |e: EdgeId| {
             let ends = [mesh.tail(e), mesh.head(e)].map(Place::index);
-            let edge = bisector(ends.map(|i| points[i]), centre(e), centre(mesh.twin(e)));
+            let edge = bisector(ends.map(|i| points[i]), center(e), center(mesh.twin(e)));
             (ends.map(|i| self.corners[i]), edge)
         };
         let two = match (&self.corners[..], &points[..]) {
@@ -301,15 +301,15 @@ impl Furthest2 {
         let diameter = |i: usize, j: usize| {
             let (p, q) = (points[i], points[j]);
             let half = [0, 1].map(|axis| q[axis] / 2.0 - p[axis] / 2.0);
-            let centre = [0, 1].map(|axis| p[axis] / 2.0 + q[axis] / 2.0);
+            let center = [0, 1].map(|axis| p[axis] / 2.0 + q[axis] / 2.0);
             let support = vec![self.corners[i], self.corners[j]];
-            EnclosingCircle { centre, radius: half[0].hypot(half[1]), support }
+            EnclosingCircle { center, radius: half[0].hypot(half[1]), support }
         };
         match points.len() {
             0 => return None,
             1 => {
                 return Some(EnclosingCircle {
-                    centre: points[0],
+                    center: points[0],
                     radius: 0.0,
                     support: self.corners.clone(),
                 });
@@ -317,7 +317,7 @@ impl Furthest2 {
             2 => return Some(diameter(0, 1)),
             _ => {}
         }
-        // The centre is as far from two sites as possible on their Voronoi edge, or at a Voronoi vertex.
+        // The center is as far from two sites as possible on their Voronoi edge, or at a Voronoi vertex.
         let sees_right_angle = |e: EdgeId| {
             let [a, b, tip] = [mesh.tail(e), mesh.head(e), mesh.tip(e)];
             tip.is_ghost() || {
@@ -338,9 +338,9 @@ impl Furthest2 {
         let t = mesh.triangles().find(is_acute)?;
         let places = mesh.places(t).map(Place::index);
         let [a, b, c] = places.map(|i| points[i]);
-        let centre = circumcentre(a, b, c)?;
-        let radius = (a[0] - centre[0]).hypot(a[1] - centre[1]);
-        Some(EnclosingCircle { centre, radius, support: places.map(|i| self.corners[i]).to_vec() })
+        let center = circumcenter(a, b, c)?;
+        let radius = (a[0] - center[0]).hypot(a[1] - center[1]);
+        Some(EnclosingCircle { center, radius, support: places.map(|i| self.corners[i]).to_vec() })
     }
 }
 

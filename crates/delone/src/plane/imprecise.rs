@@ -1,6 +1,6 @@
 //! Imprecise points: preprocess their approximate positions once, triangulate many instances fast.
 //!
-//! The centres are inserted one by one; for each the nearest one inserted before it is its *hint*. An instance is inserted
+//! The centers are inserted one by one; for each the nearest one inserted before it is its *hint*. An instance is inserted
 //! in the same order, each point located by a straight walk from the instance of its hint. For disjoint unit disks that
 //! takes O(1) expected steps a point, whatever the instance.
 //!
@@ -8,7 +8,7 @@
 //! JoCG 2011, §3; the order is random as in the analysis, or spatial as in §5, which is as good and knows the cache.
 //!
 //! Cost: O(n log n) expected to preprocess; O(n) expected for an instance of disjoint unit disks. Where hints mislead, as
-//! for an instance that has nothing to do with the centres (or disks that overlap as in §6.2), walks are given up after
+//! for an instance that has nothing to do with the centers (or disks that overlap as in §6.2), walks are given up after
 //! O(n) steps, and the instance is built by divide and conquer: O(n log n) at worst. Nothing is allocated for an instance
 //! after the first, unless walks were given up.
 //!
@@ -42,9 +42,9 @@ const SOME: usize = 10_000;
 /// ```
 /// use delone::{HintOrder, Hints2};
 ///
-/// let centres = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]];
-/// let mut hints = Hints2::from_points(&centres, HintOrder::default())?;
-/// let noisy = centres.map(|[x, y]| [x + 0.5, y - 0.25]);
+/// let centers = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]];
+/// let mut hints = Hints2::from_points(&centers, HintOrder::default())?;
+/// let noisy = centers.map(|[x, y]| [x + 0.5, y - 0.25]);
 /// let triangulation = hints.triangulate(&noisy)?;
 /// assert_eq!(triangulation.triangles().count(), 2);
 /// assert!(triangulation.check().is_ok());
@@ -64,13 +64,13 @@ pub struct Hints2 {
 }
 
 impl Hints2 {
-    /// Finds an order and the hints for points near these centres.
+    /// Finds an order and the hints for points near these centers.
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
-    pub fn from_points<P: Position2>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
-        check_count(centres.len(), MAX_POINTS)?;
-        let points: Vec<[f64; 2]> = centres.iter().map(Position2::xy).collect();
+    pub fn from_points<P: Position2>(centers: &[P], order: HintOrder) -> Result<Self, Error> {
+        check_count(centers.len(), MAX_POINTS)?;
+        let points: Vec<[f64; 2]> = centers.iter().map(Position2::xy).collect();
         check_finite(points.iter().copied())?;
         let is_spatial = matches!(order, HintOrder::Spatial { .. });
         let order = match order {
@@ -82,7 +82,7 @@ impl Hints2 {
             }
         };
         let names = Names::along(&order);
-        // Neighbours in spatial order are near each other, and the walks from the one before find the nearest.
+        // Neighbors in spatial order are near each other, and the walks from the one before find the nearest.
         let before = (0..points.len() as u32).map(|k| k.saturating_sub(1)).collect();
         let mut all = Self { order, hints: before, names, current: Delaunay2::new(), gave_up: false };
         if is_spatial {
@@ -95,13 +95,13 @@ impl Hints2 {
         Ok(all)
     }
 
-    /// The hints of centres that are located one by one.
-    fn locate_hints(&self, centres: &[[f64; 2]]) -> Result<Vec<u32>, Error> {
+    /// The hints of centers that are located one by one.
+    fn locate_hints(&self, centers: &[[f64; 2]]) -> Result<Vec<u32>, Error> {
         let mut d = Delaunay2::new();
-        // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
-        let mut places: Vec<u32> = Vec::with_capacity(centres.len());
+        // For each vertex the place that it stands for: equal centers are one vertex, with the first one's place.
+        let mut places: Vec<u32> = Vec::with_capacity(centers.len());
         let hint = |(k, &i): (usize, &u32)| {
-            Ok(match d.insert(centres[i as usize])? {
+            Ok(match d.insert(centers[i as usize])? {
                 Inserted::Existing(v) => places[v.index()],
                 Inserted::New(v) => {
                     places.push(k as u32);
@@ -112,11 +112,11 @@ impl Hints2 {
         self.order.iter().enumerate().map(hint).collect()
     }
 
-    /// Triangulates an instance: point i is near centre i, or anywhere. By hints on one thread; on several, if the points are many, by
+    /// Triangulates an instance: point i is near center i, or anywhere. By hints on one thread; on several, if the points are many, by
     /// divide and conquer on all of them.
     ///
     /// # Errors
-    /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
+    /// [`Error::Length`] if there are more or fewer points than centers; [`Error::NotFinite`] names the first NaN or
     /// infinite coordinate. The last instance is still there then.
     pub fn triangulate<P: Position2>(&mut self, instance: &[P]) -> Result<&Delaunay2, Error> {
         if parallel::parts(instance.len()) == 1 {
@@ -131,7 +131,7 @@ impl Hints2 {
         Ok(&self.current)
     }
 
-    /// Triangulates an instance of points that move from one to the next: the nearest neighbours of this one are the hints for the
+    /// Triangulates an instance of points that move from one to the next: the nearest neighbors of this one are the hints for the
     /// next.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Points that move: from the triangulation of one step to that of the next.
 //!
-//! The neighbours of most points stay the same while they move little, so the triangulation is kept and repaired:
+//! The neighbors of most points stay the same while they move little, so the triangulation is kept and repaired:
 //!
 //! 1. where the motion would turn a triangle over, one of its edges is flipped if that helps; otherwise one of its
 //!    vertices is removed, at its old position;
@@ -88,7 +88,7 @@ pub struct Moving2 {
     plans: Vec<Plan>,
     /// For each triangle one more than the last plan that it is part of.
     planned: Vec<u32>,
-    /// Vertices that were removed, each with a neighbour that it had then.
+    /// Vertices that were removed, each with a neighbor that it had then.
     removed: Vec<(VertexId, VertexId)>,
     /// Edges that may not be Delaunay.
     pending: Vec<EdgeId>,
@@ -165,7 +165,7 @@ impl Moving2 {
         std::mem::swap(&mut layer.points, &mut self.goals);
         let flips = flip_all(layer, &filter, &mut self.pending)?;
         check::check_hull(&layer.points, &layer.mesh).ok()?;
-        // The last one first: its neighbour is there.
+        // The last one first: its neighbor is there.
         for &(v, near) in self.removed.iter().rev() {
             let q = positions[v.index()];
             let near = layer.mesh.place(near);
@@ -252,7 +252,7 @@ impl Moving2 {
                 (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2)
             };
             let v = layer.mesh.places(t).into_iter().reduce(|p, q| if way(q) > way(p) { q } else { p })?;
-            // The nearest neighbour: a hub that all others are joined to is a bad start.
+            // The nearest neighbor: a hub that all others are joined to is a bad start.
             let near = nearest_neighbor(layer, v)?;
             let name = layer.mesh.name(v);
             removed.push((name, layer.mesh.name(near)));
@@ -284,7 +284,7 @@ fn all_finite(positions: &[[f64; 2]]) -> Result<(), Error> {
     if survey(positions).1 { Ok(()) } else { check_finite(positions.iter().copied()) }
 }
 
-/// The neighbour of a vertex that is nearest to it, as far as rounding tells.
+/// The neighbor of a vertex that is nearest to it, as far as rounding tells.
 fn nearest_neighbor(layer: &Layer, v: Place) -> Option<Place> {
     let from = layer.points[v.index()];
     let distance = |w: Place| {

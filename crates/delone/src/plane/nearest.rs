@@ -4,7 +4,7 @@
 //!
 //! Cost: location, and O(1) expected for the nearest, O(k log k) for k of them, and the size of the answer for
 //! circles (up to logarithmic factors, on evenly spread points). Where the nearest vertex, or one on the way to it, has
-//! many neighbours all of them are looked at: O(d) for degree d. Where that hurts,
+//! many neighbors all of them are looked at: O(d) for degree d. Where that hurts,
 //! [`NearestSites2`](super::NearestSites2) answers in O(log^2 n) expected for any set.
 
 use std::cmp::Ordering;

@@ -260,7 +260,7 @@ mod tests {
         assert!(!both([0.0, 7.1], [1.9, 9.0]) && !both([3.1, 9.0], [5.0, 7.1]));
     }
 
-    /// For corners that are the last of their polygon along an axis, or share that place with one of their neighbours.
+    /// For corners that are the last of their polygon along an axis, or share that place with one of their neighbors.
     #[test]
     fn polygons_end_before_a_rectangle_begins() {
         let turned = |p: [f64; 2]| [5.0 - p[0], 10.0 - p[1]]; // the rectangle stays where it is

@@ -156,8 +156,8 @@ impl Change for Delaunay2 {
 impl Imprecise for Hints2 {
     type Triangulation = Delaunay2;
 
-    fn from_centres(centres: &[[f64; 2]], order: HintOrder) -> Result<Self, Error> {
-        Self::from_points(centres, order)
+    fn from_centers(centers: &[[f64; 2]], order: HintOrder) -> Result<Self, Error> {
+        Self::from_points(centers, order)
     }
 
     fn triangulate(&mut self, instance: &[[f64; 2]]) -> Result<&Delaunay2, Error> {

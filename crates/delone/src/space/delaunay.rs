@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use delone_predicates::circumcentre3;
+use delone_predicates::circumcenter3;
 
 use super::construct;
 use super::layer::Layer;
@@ -146,7 +146,7 @@ impl Delaunay3 {
         Counters::Incremental(self.work)
     }
 
-    /// The topology: tetrahedra, facets, neighbours. Below space its tetrahedra have corners without a name, which
+    /// The topology: tetrahedra, facets, neighbors. Below space its tetrahedra have corners without a name, which
     /// stand for the dimensions that are missing.
     pub fn mesh(&self) -> &Mesh3 {
         &self.base.mesh
@@ -197,24 +197,24 @@ impl Delaunay3 {
         self.tetrahedron_ids().count()
     }
 
-    /// The centre of the sphere through the corners of a finite tetrahedron, correctly rounded (see
-    /// [`delone_predicates::circumcentre3`]): a vertex of the Voronoi diagram, in coordinate units. `None` for a ghost, and where it is
+    /// The center of the sphere through the corners of a finite tetrahedron, correctly rounded (see
+    /// [`delone_predicates::circumcenter3`]): a vertex of the Voronoi diagram, in coordinate units. `None` for a ghost, and where it is
     /// too far away for `f64`. O(1).
     ///
     /// ```
     /// use delone::Delaunay3;
-    /// // The corners of a box are on one sphere: all its tetrahedra have the same centre, to the bit.
+    /// // The corners of a box are on one sphere: all its tetrahedra have the same center, to the bit.
     /// let corners: Vec<[f64; 3]> = (0..8).map(|i| [0, 1, 2].map(|k| if i >> k & 1 == 0 { 0.1 } else { 0.3 })).collect();
     /// let d = Delaunay3::from_points(&corners)?;
-    /// assert!(d.tetrahedron_ids().all(|t| d.circumcentre(t) == Some([0.2; 3])));
+    /// assert!(d.tetrahedron_ids().all(|t| d.circumcenter(t) == Some([0.2; 3])));
     /// # Ok::<(), delone::Error>(())
     /// ```
-    pub fn circumcentre(&self, t: TetrahedronId) -> Option<[f64; 3]> {
+    pub fn circumcenter(&self, t: TetrahedronId) -> Option<[f64; 3]> {
         if self.base.mesh.is_ghost(t) {
             return None;
         }
         let [a, b, c, d] = self.base.mesh.corners(t).map(|v| self.point(v));
-        circumcentre3(a, b, c, d)
+        circumcenter3(a, b, c, d)
     }
 
     /// The finite facets, each from one of its two sides; of coplanar points the triangles.

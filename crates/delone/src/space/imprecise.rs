@@ -1,6 +1,6 @@
 //! Imprecise points in space: preprocess their approximate positions once, triangulate many instances fast.
 //!
-//! As in the plane (`plane/imprecise.rs`): each centre's hint is the nearest one inserted before it, and each point of an
+//! As in the plane (`plane/imprecise.rs`): each center's hint is the nearest one inserted before it, and each point of an
 //! instance is located by a walk from the instance of its hint.
 //!
 //! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
@@ -47,9 +47,9 @@ impl<T: Tally> Tally for Steps<'_, T> {
 /// ```
 /// use delone::{HintOrder, Hints3};
 ///
-/// let centres = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
-/// let mut hints = Hints3::from_points(&centres, HintOrder::default())?;
-/// let noisy = centres.map(|p| p.map(|x| x + 0.25));
+/// let centers = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+/// let mut hints = Hints3::from_points(&centers, HintOrder::default())?;
+/// let noisy = centers.map(|p| p.map(|x| x + 0.25));
 /// assert_eq!(hints.triangulate(&noisy)?.tetrahedra().count(), 1);
 /// # Ok::<(), delone::Error>(())
 /// ```
@@ -69,17 +69,17 @@ pub struct Hints3 {
 }
 
 impl Hints3 {
-    /// Finds an order and the hints for points near these centres.
+    /// Finds an order and the hints for points near these centers.
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
-    pub fn from_points<P: Position3>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
-        check_in_space(centres)?;
-        let count = centres.len();
+    pub fn from_points<P: Position3>(centers: &[P], order: HintOrder) -> Result<Self, Error> {
+        check_in_space(centers)?;
+        let count = centers.len();
         let is_spatial = matches!(order, HintOrder::Spatial { .. });
         let (along, order) = match order {
             HintOrder::Spatial { seed } => (
-                order::space::hilbert(count, &|i| centres[i as usize].xyz()),
+                order::space::hilbert(count, &|i| centers[i as usize].xyz()),
                 order::space::rounds(count, seed),
             ),
             HintOrder::Random { seed } => {
@@ -89,26 +89,26 @@ impl Hints3 {
             }
         };
         let names = Names::along(&along);
-        // Neighbours in spatial order are near each other, and the walks from the one before find the nearest.
+        // Neighbors in spatial order are near each other, and the walks from the one before find the nearest.
         let before = std::iter::once(&0).chain(&order).take(count).copied().collect();
         let mut all = Self { along, order, hints: before, names, current: Delaunay3::new(), gave_up: false };
         if is_spatial {
-            all.follow(centres)?;
+            all.follow(centers)?;
         }
         if !is_spatial || all.gave_up {
-            all.hints = all.locate_hints(centres)?;
+            all.hints = all.locate_hints(centers)?;
         }
         (all.current, all.gave_up) = (Delaunay3::new(), false);
         Ok(all)
     }
 
-    /// The hints of centres that are located one by one.
-    fn locate_hints<P: Position3>(&self, centres: &[P]) -> Result<Vec<u32>, Error> {
+    /// The hints of centers that are located one by one.
+    fn locate_hints<P: Position3>(&self, centers: &[P]) -> Result<Vec<u32>, Error> {
         let mut d = Delaunay3::new();
-        // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
-        let mut places: Vec<u32> = Vec::with_capacity(centres.len());
+        // For each vertex the place that it stands for: equal centers are one vertex, with the first one's place.
+        let mut places: Vec<u32> = Vec::with_capacity(centers.len());
         let hint = |&place: &u32| {
-            let q = centres[self.along[place as usize] as usize].xyz();
+            let q = centers[self.along[place as usize] as usize].xyz();
             Ok(match d.insert(q)? {
                 Inserted::Existing(v) => places[v.index()],
                 Inserted::New(v) => {
@@ -120,10 +120,10 @@ impl Hints3 {
         self.order.iter().map(hint).collect()
     }
 
-    /// Triangulates an instance: point i is near centre i, or anywhere.
+    /// Triangulates an instance: point i is near center i, or anywhere.
     ///
     /// # Errors
-    /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
+    /// [`Error::Length`] if there are more or fewer points than centers; [`Error::NotFinite`] names the first NaN or
     /// infinite coordinate. The last instance is still there then. [`Error::TooManyTetrahedra`] leaves none.
     pub fn triangulate<P: Position3>(&mut self, instance: &[P]) -> Result<&Delaunay3, Error> {
         self.insert(instance, &mut ())
@@ -140,7 +140,7 @@ impl Hints3 {
         self.settle(arrived, instance)
     }
 
-    /// Triangulates an instance of points that move from one to the next: the nearest neighbours of this one are the hints
+    /// Triangulates an instance of points that move from one to the next: the nearest neighbors of this one are the hints
     /// for the next.
     ///
     /// # Errors
@@ -252,7 +252,7 @@ impl Hints3 {
     }
 }
 
-/// The nearest neighbour of a vertex that was inserted last.
+/// The nearest neighbor of a vertex that was inserted last.
 fn nearest(layer: &Layer, v: Place) -> Option<Place> {
     let q = layer.points[v.index()];
     let joined = layer.cavity.joined().filter(|&p| !layer.is_scaffold(p));

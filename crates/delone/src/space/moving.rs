@@ -1,6 +1,6 @@
 //! Points that move in space: from the triangulation of one step to that of the next.
 //!
-//! Connectivity is kept. Tetrahedra that turned over, and pairs of neighbours of which one has the other's apex in its
+//! Connectivity is kept. Tetrahedra that turned over, and pairs of neighbors of which one has the other's apex in its
 //! sphere, are taken out in connected holes. A hole is refilled with the triangulation of its own vertices
 //! (`hole.rs`); where that does not fit the border, or is in conflict with what is outside of it, the hole grows. A
 //! vertex that has left its hole is inserted again from where it was.
@@ -168,7 +168,7 @@ impl Moving3 {
     }
 }
 
-/// Collects and marks the tetrahedra that are not in positive order, or in conflict with the apex of a neighbour. None if
+/// Collects and marks the tetrahedra that are not in positive order, or in conflict with the apex of a neighbor. None if
 /// they are too many.
 fn find_bad(layer: &mut Layer, bad: &mut Vec<TetrahedronId>) -> Option<()> {
     let most = layer.mesh.cells.len() / BAD + SMALL_SET;

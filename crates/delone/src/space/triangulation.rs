@@ -154,8 +154,8 @@ impl Change for Delaunay3 {
 impl Imprecise for Hints3 {
     type Triangulation = Delaunay3;
 
-    fn from_centres(centres: &[[f64; 3]], order: HintOrder) -> Result<Self, Error> {
-        Self::from_points(centres, order)
+    fn from_centers(centers: &[[f64; 3]], order: HintOrder) -> Result<Self, Error> {
+        Self::from_points(centers, order)
     }
 
     fn triangulate(&mut self, instance: &[[f64; 3]]) -> Result<&Delaunay3, Error> {

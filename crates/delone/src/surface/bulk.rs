@@ -112,7 +112,7 @@ impl<T: Surround> Interpolator<'_, T> {
 }
 
 impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
-    /// Values at the centres of the cells of a raster that have one in `mask`, row by row, in its place; the others stay as they are.
+    /// Values at the centers of the cells of a raster that have one in `mask`, row by row, in its place; the others stay as they are.
     ///
     /// # Errors
     /// [`Error::Values`] if there are not as many values as ids of vertices.
@@ -153,7 +153,7 @@ impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
             for (row, cells) in part.chunks_mut(columns).enumerate() {
                 for (column, cell) in cells.iter_mut().enumerate() {
                     if !cell.is_nan()
-                        && let Some(value) = surface(&mut own, grid.centre(column, first + row))?
+                        && let Some(value) = surface(&mut own, grid.center(column, first + row))?
                     {
                         *cell = value;
                     }

@@ -1,6 +1,6 @@
 //! Where the cells of a raster are.
 //!
-//! Centres are computed from the whole raster's origin and a cell's absolute number, so a window of a raster has the bits of the raster:
+//! Centers are computed from the whole raster's origin and a cell's absolute number, so a window of a raster has the bits of the raster:
 //! tiles that are made apart fit.
 
 use std::ops::Range;
@@ -8,19 +8,19 @@ use std::ops::Range;
 use crate::error::Error;
 use crate::points::Bounds;
 
-/// The largest number of cells along an axis, 2^52: the centres of more could not be told from their neighbours.
+/// The largest number of cells along an axis, 2^52: the centers of more could not be told from their neighbors.
 const MAX_CELLS_ALONG: f64 = 4_503_599_627_370_496.0;
 
-/// The cells of a raster: columns along x and rows along y, each of one size. A value belongs to the centre of its cell. In the
+/// The cells of a raster: columns along x and rows along y, each of one size. A value belongs to the center of its cell. In the
 /// units of the points. Rows go from north to south where the step along y is negative, which is what files of rasters expect.
 ///
 /// ```
 /// use delone::surface::Grid;
 ///
 /// let grid = Grid::new([0.0, 10.0], [2.0, -5.0], 3, 2)?;
-/// assert_eq!((grid.centre(0, 0), grid.centre(2, 1)), ([1.0, 7.5], [5.0, 2.5]));
+/// assert_eq!((grid.center(0, 0), grid.center(2, 1)), ([1.0, 7.5], [5.0, 2.5]));
 /// let window = grid.window(1..3, 1..2);
-/// assert_eq!((window.centre(0, 0), window.corner()), (grid.centre(1, 1), [2.0, 5.0]));
+/// assert_eq!((window.center(0, 0), window.corner()), (grid.center(1, 1), [2.0, 5.0]));
 /// # Ok::<(), delone::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +108,7 @@ impl Grid {
         Ok(Self { origin, step: [size, -size], first, columns: count(0), rows: count(1) })
     }
 
-    /// Some of the columns and rows, with the same centres.
+    /// Some of the columns and rows, with the same centers.
     ///
     /// # Panics
     /// For columns or rows that there are not.
@@ -151,19 +151,19 @@ impl Grid {
         [0, 1].map(|k| self.edge(k, self.first[k] + counts[k]))
     }
 
-    /// The centre of a cell.
+    /// The center of a cell.
     #[inline]
-    pub fn centre(&self, column: usize, row: usize) -> [f64; 2] {
+    pub fn center(&self, column: usize, row: usize) -> [f64; 2] {
         [self.x(column), self.y(row)]
     }
 
-    /// Where the centres of a column are.
+    /// Where the centers of a column are.
     #[inline]
     pub fn x(&self, column: usize) -> f64 {
         self.middle(0, column)
     }
 
-    /// Where the centres of a row are.
+    /// Where the centers of a row are.
     #[inline]
     pub fn y(&self, row: usize) -> f64 {
         self.middle(1, row)

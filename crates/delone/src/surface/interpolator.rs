@@ -1,7 +1,7 @@
 //! Values between the vertices of a triangulation, one point after the other.
 //!
 //! Cost: location, O(1) expected where a point is near the one before; then O(1) for [`Interpolator::linear`], O(k log k) for k
-//! natural neighbours, which are six on average in the plane and fifteen in space.
+//! natural neighbors, which are six on average in the plane and fifteen in space.
 
 use super::border;
 use super::linear;
@@ -36,7 +36,7 @@ enum Method {
     Natural(Measure),
 }
 
-/// Interpolates values at the vertices of a triangulation: the nearest one, linear in triangles and tetrahedra, or natural neighbours
+/// Interpolates values at the vertices of a triangulation: the nearest one, linear in triangles and tetrahedra, or natural neighbors
 /// in the sense of Laplace or of Sibson, which are smooth but at the vertices.
 ///
 /// At a vertex there is its value. On the hull everything is linear, and outside there is nothing, unless [`Self::outside`] asks for
@@ -119,12 +119,12 @@ impl<'t, T: Surround> Interpolator<'t, T> {
         Self::new(d, Method::Linear, by_walk)
     }
 
-    /// Natural neighbours, each with the size of the facet between its cell and that of the point, over their distance.
+    /// Natural neighbors, each with the size of the facet between its cell and that of the point, over their distance.
     pub fn laplace(d: &'t T) -> Self {
         Self::new(d, Method::Natural(Measure::Laplace), by_walk)
     }
 
-    /// Natural neighbours, each with what the cell of the point takes from its cell: the area, or the volume. Continuously
+    /// Natural neighbors, each with what the cell of the point takes from its cell: the area, or the volume. Continuously
     /// differentiable but at vertices.
     pub fn sibson(d: &'t T) -> Self {
         Self::new(d, Method::Natural(Measure::Sibson), by_walk)
@@ -170,7 +170,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
     }
 
     /// The weights of vertices at a point: positive or zero, with the sum one; none outside. They come in an order that depends on the
-    /// points alone (natural neighbours of the plane counter-clockwise, from the lexicographically least one on; all others in
+    /// points alone (natural neighbors of the plane counter-clockwise, from the lexicographically least one on; all others in
     /// lexicographic order), and with the same bits from every triangulation of the same points.
     ///
     /// # Errors

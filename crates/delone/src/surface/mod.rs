@@ -2,7 +2,7 @@
 //!
 //! | wanted | how | cost |
 //! | --- | --- | --- |
-//! | a value, or weights, at one point after the other | [`Interpolator`]: nearest, linear, natural neighbours by Laplace and by Sibson | O(1) expected each from nearby |
+//! | a value, or weights, at one point after the other | [`Interpolator`]: nearest, linear, natural neighbors by Laplace and by Sibson | O(1) expected each from nearby |
 //! | the same, smooth at the vertices too | [`Interpolator::smooth`], [`Interpolator::farin`] with [`gradients`] | the same |
 //! | at many points, on all threads | [`Interpolator::many`], [`Interpolator::matrix`] for the [`Weights`] alone | |
 //! | a linear raster | [`rasterize`], or [`Raster::paint`] for triangles from anywhere | O(1) a triangle, row and cell |
@@ -12,7 +12,7 @@
 //! | what of it is shown, without long triangles or slivers along its border | [`Trim`] by a [`Border`] | O(n) |
 //! | few of the points, near all of them | [`Thinning`] | O(log n) for each that is chosen, and what is in its star |
 //!
-//! Which triangle a point is in and who its neighbours are is exact; values are rounded.
+//! Which triangle a point is in and who its neighbors are is exact; values are rounded.
 
 mod border;
 mod bulk;

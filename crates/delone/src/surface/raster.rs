@@ -1,13 +1,13 @@
 //! Triangles to cells: linear surfaces as rasters.
 //!
-//! A cell has a value if its centre is in a triangle that is painted, in its inside or on its border, which the predicates decide. Along each
+//! A cell has a value if its center is in a triangle that is painted, in its inside or on its border, which the predicates decide. Along each
 //! row the surface is linear between the two edges that the row meets, and along an edge it is linear between its ends, taken in
-//! lexicographic order: so both triangles at an edge give the same bits for a centre on it, a centre on a vertex has its value, and no
+//! lexicographic order: so both triangles at an edge give the same bits for a center on it, a center on a vertex has its value, and no
 //! value leaves the range of the corners, however flat a triangle is. What a cell has depends on its triangle alone: tiles, windows,
 //! orders and threads do not show.
 //!
 //! Cost: O(1) for each triangle, each row that meets it and each cell in it: a few nanoseconds. Where a row meets an edge is computed with a
-//! bound of its error; predicates are asked where a centre is nearer than that.
+//! bound of its error; predicates are asked where a center is nearer than that.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -61,7 +61,7 @@ impl Raster {
         &self.grid
     }
 
-    /// Paints a triangle, counter-clockwise, with a value at each corner: all cells whose centres are in it or on its border.
+    /// Paints a triangle, counter-clockwise, with a value at each corner: all cells whose centers are in it or on its border.
     #[inline]
     pub fn paint(&self, corners: [[f64; 2]; 3], values: [f64; 3]) {
         let [a, b, c] = corners;
@@ -158,7 +158,7 @@ impl Raster {
 /// How many columns and rows are before a point, and how many before or at it.
 type Rank = [[u32; 2]; 2];
 
-/// Whether the box of a triangle holds a centre.
+/// Whether the box of a triangle holds a center.
 #[inline]
 fn may_hold([a, b, c]: [Rank; 3]) -> bool {
     let [columns, rows] =
@@ -309,7 +309,7 @@ struct Meeting<'a> {
 /// A column where something begins.
 struct Begin {
     column: usize,
-    /// Whether the centre there, or the last one before the end, is on the side itself.
+    /// Whether the center there, or the last one before the end, is on the side itself.
     is_on_edge: bool,
 }
 
@@ -405,7 +405,7 @@ fn paint<T: Triangulation<Point = [f64; 2]>>(
     raster: &Raster,
     keep: impl Fn(T::Simplex) -> bool + Sync,
 ) {
-    // Where most triangles hold no centre, most of the time would go into finding that out from coordinates.
+    // Where most triangles hold no center, most of the time would go into finding that out from coordinates.
     let ranks = if raster.grid.cells() < d.vertex_count() as f64 { raster.ranks(d) } else { Vec::new() };
     let one = |s: T::Simplex| {
         let corners = d.corners(s);

@@ -1,10 +1,10 @@
 //! Surfaces that are smooth at the vertices too, from values and gradients there.
 //!
-//! Sources: Sibson, "A brief description of natural neighbour interpolation", 1981: between the plane of each neighbour, and what
-//! natural neighbours give, so that spheres come out as they are. Farin, "Surfaces over Dirichlet tessellations", 1990: a cubic
-//! of Bernstein and Bezier over natural neighbour coordinates, whose quadratic part comes out as it is.
+//! Sources: Sibson, "A brief description of natural neighbor interpolation", 1981: between the plane of each neighbor, and what
+//! natural neighbors give, so that spheres come out as they are. Farin, "Surfaces over Dirichlet tessellations", 1990: a cubic
+//! of Bernstein and Bezier over natural neighbor coordinates, whose quadratic part comes out as it is.
 //!
-//! Cost: as for [`Interpolator::sibson`], and O(k) and O(k^2) for k neighbours.
+//! Cost: as for [`Interpolator::sibson`], and O(k) and O(k^2) for k neighbors.
 
 use super::interpolator::{Interpolator, blend, check_values};
 use crate::around::Surround;
@@ -82,10 +82,10 @@ impl<T: Surround> Interpolator<'_, T> {
     }
 }
 
-/// The value at a point of a surface over its natural neighbours.
+/// The value at a point of a surface over its natural neighbors.
 type Bent<P> = fn(P, &[Neighbor<P>]) -> f64;
 
-/// A natural neighbour.
+/// A natural neighbor.
 #[derive(Clone, Copy)]
 struct Neighbor<P> {
     weight: f64,

@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn long_triangles_go_from_the_border_inwards() {
-        // A strip of unit squares, one of which lacks its neighbours, and a point far away.
+        // A strip of unit squares, one of which lacks its neighbors, and a point far away.
         let mut points: Vec<[f64; 2]> = (0..12).map(|i| [f64::from(i % 6), f64::from(i / 6)]).collect();
         points.push([3.0, 50.0]);
         let d = Delaunay2::from_points(&points).expect("finite");

@@ -9,7 +9,7 @@
 //!
 //! In space it is the same with spheres and tetrahedra: `Cuts<3>`, `Region<3>`, [`Tile3`], [`Border3`], [`join3`].
 //!
-//! Two pure functions of points and a region: no files, no threads of its own, no clock, no neighbours, no rounds. One process can walk
+//! Two pure functions of points and a region: no files, no threads of its own, no clock, no neighbors, no rounds. One process can walk
 //! the tree, many machines can share it.
 //!
 //! Source: the certificate is the one by which Isenburg, Liu, Shewchuk & Snoeyink finalize triangles ("Streaming computation of

@@ -7,7 +7,7 @@
 //!
 //! Cost: O(k + h log h) for k open triangles and h points of the border.
 
-use delone_predicates::{circumcentre, orient2d};
+use delone_predicates::{circumcenter, orient2d};
 
 use super::{Border, Region};
 use crate::hull::Hull2;
@@ -78,7 +78,7 @@ fn meets(corners: [[f64; 2]; 3], window: &Region) -> bool {
 
 /// The box of the circle of a triangle.
 fn around([a, b, c]: [[f64; 2]; 3]) -> Region {
-    let Some(centre) = circumcentre(a, b, c) else { return Region::ALL };
-    let radius = (centre[0] - a[0]).hypot(centre[1] - a[1]) * (1.0 + MARGIN);
-    Region { low: centre.map(|x| x - radius), high: centre.map(|x| x + radius) }
+    let Some(center) = circumcenter(a, b, c) else { return Region::ALL };
+    let radius = (center[0] - a[0]).hypot(center[1] - a[1]) * (1.0 + MARGIN);
+    Region { low: center.map(|x| x - radius), high: center.map(|x| x + radius) }
 }

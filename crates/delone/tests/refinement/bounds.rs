@@ -36,8 +36,8 @@ fn bounds_hold() {
         let inside = || c.triangle_ids().filter(|&t| refined.domains.is_inside(t));
         for t in inside() {
             let [p, q, r] = corners(&c, t);
-            let centre = [0, 1].map(|k| (p[k] + q[k] + r[k]) / 3.0);
-            assert!(edges(&c, t).into_iter().all(|length| length <= size(centre) * (1.0 + 1e-12)));
+            let center = [0, 1].map(|k| (p[k] + q[k] + r[k]) / 3.0);
+            assert!(edges(&c, t).into_iter().all(|length| length <= size(center) * (1.0 + 1e-12)));
         }
         let near = inside().filter(|&t| corners(&c, t)[0][0] < 1.0).count();
         assert!(inside().count() > near && 3 * near > inside().count(), "small where small is wanted");
@@ -257,7 +257,7 @@ fn sizes_at_the_ends_of_the_range() {
     }
 }
 
-/// At a few units in the last place circumcentres are rounded out of their circles. What is left is not for an angle of the input.
+/// At a few units in the last place circumcenters are rounded out of their circles. What is left is not for an angle of the input.
 #[test]
 fn what_no_vertex_mends_is_left_for_precision() {
     let mut random = Random::new(7);

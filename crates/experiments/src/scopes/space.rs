@@ -115,7 +115,7 @@ fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
 }
 
 /// Half of so many points on each of two skew lines, less than half as far from the axis between them as that is long: all
-/// spheres through neighbours on both lines hold its middle.
+/// spheres through neighbors on both lines hold its middle.
 fn skew_lines(n: usize) -> Vec<[f64; 3]> {
     let half = n / 2;
     let at = |i: usize| 0.8 * ((i as f64 + 0.5) / half as f64 - 0.5);

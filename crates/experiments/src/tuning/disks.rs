@@ -67,8 +67,8 @@ fn count(kind: Kind, ratio: f64, seed: u64) -> Result<[Vec<f64>; 2], Error> {
             };
             let radius = (q[0] - v[0]).hypot(q[1] - v[1]);
             let middle = [0, 1].map(|k| f64::midpoint(q[k], v[k]));
-            for (held, (centre, radius)) in held.iter_mut().zip([(middle, radius / 2.0), (q, radius)]) {
-                d.within(centre, radius)?.iter().for_each(|w| held[w.index()] += 1.0 / SAMPLES as f64);
+            for (held, (center, radius)) in held.iter_mut().zip([(middle, radius / 2.0), (q, radius)]) {
+                d.within(center, radius)?.iter().for_each(|w| held[w.index()] += 1.0 / SAMPLES as f64);
             }
         }
     }

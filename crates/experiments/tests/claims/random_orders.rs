@@ -123,7 +123,7 @@ fn hulls_keep_a_linear_history() {
     table.within("traced / ln n", 1.0, 5.0);
     // Whether a point is inside: within the bound of §5 for the other structure.
     table.within("query / ln^2 n", 0.05, 4.0);
-    // Where all are corners the expected number is known. On the curve two points may have all others for neighbours, and when
+    // Where all are corners the expected number is known. On the curve two points may have all others for neighbors, and when
     // these two come decides much.
     for (set, tolerance) in [("sphere", 0.05), ("moment curve", 0.25)] {
         let of_set = table.rows(&[set]);
@@ -198,7 +198,7 @@ fn flips_in_space_leave_a_history() {
     }
 }
 
-/// Theorems 5.2 and 5.4, also for queries near a site that has all others for neighbours.
+/// Theorems 5.2 and 5.4, also for queries near a site that has all others for neighbors.
 #[test]
 fn radial_triangles_are_linear_and_searched_in_a_squared_logarithm() {
     let table = Cells::of(&RADIAL, "radial-counts");

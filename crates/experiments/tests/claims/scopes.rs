@@ -150,7 +150,7 @@ fn samples_bound_what_appears_in_space() {
     }
     // Linear in a cube.
     samples.rows(&["cube"]).within("appeared / end", 1.0, 6.0);
-    // On lines all pairs of neighbours on both are in a tetrahedron; with zeta the end is linear, and what appears is not.
+    // On lines all pairs of neighbors on both are in a tetrahedron; with zeta the end is linear, and what appears is not.
     let lines = samples.rows(&["skew lines"]);
     for (end, n) in lines.column("in the end").into_iter().zip(lines.column("points")) {
         assert_eq!(end, (n / 2.0 - 1.0).powi(2));

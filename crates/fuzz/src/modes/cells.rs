@@ -29,7 +29,7 @@ fn corner(random: &mut Random, sites: &[[f64; 2]]) -> [f64; 2] {
     let site = |r: &mut Random| if sites.is_empty() { [0.0, 0.0] } else { sites[r.below(sites.len())] };
     let [a, b, c] = [(); 3].map(|()| site(random));
     let at = match random.below(5) {
-        0 => circumcentre(a, b, c),
+        0 => circumcenter(a, b, c),
         1 => [a[0] / 2.0 + b[0] / 2.0, a[1] / 2.0 + b[1] / 2.0],
         2 => [a[0], b[1]],
         3 => [integer(random, 8) / 2.0, integer(random, 8) / 2.0],
@@ -38,7 +38,7 @@ fn corner(random: &mut Random, sites: &[[f64; 2]]) -> [f64; 2] {
     if at.iter().all(|x| x.is_finite()) { at } else { a }
 }
 
-fn circumcentre(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
+fn circumcenter(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
     let area = 2.0 * (u[0] * v[1] - u[1] * v[0]);
     let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);

@@ -100,7 +100,7 @@ fn furthest_triangles(points: &[[f64; 2]], furthest: &delone::Furthest2) -> Judg
 fn smallest_circle(points: &[[f64; 2]], furthest: &delone::Furthest2) -> Judgement {
     let exact = integers(points);
     let Some(circle) = furthest.enclosing_circle() else {
-        // Only a centre beyond the range of numbers is an excuse.
+        // Only a center beyond the range of numbers is an excuse.
         let finite = points.iter().flatten().all(|x| x.abs() < 1e300);
         return if points.is_empty() || !finite { Ok(()) } else { Err("no enclosing circle".to_owned()) };
     };
@@ -132,7 +132,7 @@ fn smallest_circle(points: &[[f64; 2]], furthest: &delone::Furthest2) -> Judgeme
     if (1e-100..1e100).contains(&size) {
         for &i in &support {
             let p = points[i];
-            let distance = (p[0] - circle.centre[0]).hypot(p[1] - circle.centre[1]);
+            let distance = (p[0] - circle.center[0]).hypot(p[1] - circle.center[1]);
             if (distance - circle.radius).abs() > 1e-9 * size {
                 return Err(format!("enclosing circle: {circle:?} does not touch {p:?}"));
             }

@@ -18,7 +18,7 @@ pub(crate) struct Motion<const D: usize>;
 /// The positions of one point, step by step.
 type Path<const D: usize> = Vec<[f64; D]>;
 
-/// Positions at first: a nasty set, or points on a sphere with its centre.
+/// Positions at first: a nasty set, or points on a sphere with its center.
 fn start<const D: usize>(random: &mut Random) -> Vec<[f64; D]> {
     let most = if D == 2 { 60 } else { 40 };
     match random.below(3) {

@@ -53,7 +53,7 @@ impl Attack for Orders {
     }
 }
 
-/// Points with a region that has more neighbours than holes are filled side by side for: most of a circle of the lattice or of a
+/// Points with a region that has more neighbors than holes are filled side by side for: most of a circle of the lattice or of a
 /// line, and few others.
 fn wheel(random: &mut Random) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = if once_in(random, 3) {
@@ -139,11 +139,11 @@ impl Truth {
         let mut queries: Vec<[f64; 2]> = (0..QUERIES).map(|_| nasty::query(random, &points)).collect();
         if !points.is_empty() {
             // Ties: as far from three sites as rounding allows.
-            let centres = (0..QUERIES).filter_map(|_| {
+            let centers = (0..QUERIES).filter_map(|_| {
                 let [a, b, c] = [(); 3].map(|()| points[random.below(points.len())]);
-                delone_predicates::circumcentre(a, b, c)
+                delone_predicates::circumcenter(a, b, c)
             });
-            queries.extend(centres.filter(|q| q.iter().all(|x| x.is_finite())));
+            queries.extend(centers.filter(|q| q.iter().all(|x| x.is_finite())));
         }
         let corners = [(); 2].map(|()| nasty::query(random, &points));
         // All of the points, or any part of the plane.
@@ -250,12 +250,12 @@ impl Truth {
                 return Err(format!("{:?} has the area {area} in {low:?} to {high:?}", own.sites()));
             }
             sum += area;
-            // Regions in a rectangle are convex, and a large one has its centre of mass well inside.
+            // Regions in a rectangle are convex, and a large one has its center of mass well inside.
             if area > 1e-4 * diagonal * diagonal {
-                let found = cells.centroid(own).map(|centre| order.locate(centre));
+                let found = cells.centroid(own).map(|center| order.locate(center));
                 if !matches!(&found, Some(Ok(found)) if found.index() == own.index()) {
                     return Err(format!(
-                        "{:?} has its centre in {found:?} of {low:?}, {high:?}",
+                        "{:?} has its center in {found:?} of {low:?}, {high:?}",
                         own.sites()
                     ));
                 }

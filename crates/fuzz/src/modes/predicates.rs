@@ -2,8 +2,8 @@
 
 use delone_generators::Random;
 use delone_predicates::{
-    Filter, Filter3, Grid, Pencil, Plane, Sign, angle, are_collinear3, centre_direction, centre_side,
-    circumcentre, circumcentre3, compare_distances, compare_distances3, compare_with_radius,
+    Filter, Filter3, Grid, Pencil, Plane, Sign, angle, are_collinear3, center_direction, center_side,
+    circumcenter, circumcenter3, compare_distances, compare_distances3, compare_with_radius,
     compare_with_radius3, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, keeps_clear,
     lexicographic, lexicographic3, orient2d, orient3d, orient3d_moved, strictly_between,
 };
@@ -170,22 +170,22 @@ fn in_plane(points: [[f64; 2]; 4], radius: f64, judge: &mut Judge) {
         let (u, v, w) = (minus(y, x), minus(z, x), minus(&exact[3], x));
         let (uu, vv) = (dot(&u, &u), dot(&v, &v));
         let side = &uu * dot(&v, &w) - &vv * dot(&u, &w);
-        judge.sign("centre_side", centre_side(a, b, c, d), sign(&side));
+        judge.sign("center_side", center_side(a, b, c, d), sign(&side));
         // From a.x = |a|^2 / 2 for both sides, by Cramer's rule.
-        let centre = [&uu * &v[1] - &vv * &u[1], &vv * &u[0] - &uu * &v[0]];
-        let expected = centre.map(|x| Sign::of(&sign(&x), &0));
-        judge.equal("centre_direction", centre_direction(a, b, c), expected);
+        let center = [&uu * &v[1] - &vv * &u[1], &vv * &u[0] - &uu * &v[0]];
+        let expected = center.map(|x| Sign::of(&sign(&x), &0));
+        judge.equal("center_direction", center_direction(a, b, c), expected);
     }
-    centre([a, b, c], turn != 0, judge);
+    center([a, b, c], turn != 0, judge);
 }
 
-/// The circumcentre is the nearest point of numbers.
-fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
-    let found = circumcentre(a, b, c);
-    judge.equal("circumcentre in another order", circumcentre(c, a, b), found);
+/// The circumcenter is the nearest point of numbers.
+fn center([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
+    let found = circumcenter(a, b, c);
+    judge.equal("circumcenter in another order", circumcenter(c, a, b), found);
     let Some(found) = found.filter(|_| is_triangle) else {
         if !is_triangle {
-            judge.equal("circumcentre of a line", found, None);
+            judge.equal("circumcenter of a line", found, None);
         }
         return;
     };
@@ -193,12 +193,12 @@ fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
     let (exact, scale) = (integers(&points), scale(points.as_flattened()));
     let [u, v] = [1, 2].map(|i| minus(&exact[i], &exact[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
-    // The centre relative to a is this over twice the area.
-    let centre = [&uu * &v[1] - &vv * &u[1], &vv * &u[0] - &uu * &v[0]];
+    // The center relative to a is this over twice the area.
+    let center = [&uu * &v[1] - &vv * &u[1], &vv * &u[0] - &uu * &v[0]];
     let area: BigInt = (&u[0] * &v[1] - &u[1] * &v[0]) * 2;
     for k in 0..2 {
-        let is_right = is_nearest(&exact[0][k] * &area + &centre[k], area.clone(), scale, found[k]);
-        judge.equal("circumcentre is the nearest", is_right, true);
+        let is_right = is_nearest(&exact[0][k] * &area + &center[k], area.clone(), scale, found[k]);
+        judge.equal("circumcenter is the nearest", is_right, true);
     }
 }
 
@@ -221,11 +221,11 @@ fn is_nearest(mut numerator: BigInt, mut denominator: BigInt, scale: i32, found:
     is_within || (is_even && (twice == least || twice == most)) || found.abs() == f64::MAX
 }
 
-/// The centre of the sphere through the first four points is the nearest point of numbers.
-fn centre_in_space(points: &[[f64; 3]; 5], exact: &[Vector], scale: i32, judge: &mut Judge) {
+/// The center of the sphere through the first four points is the nearest point of numbers.
+fn center_in_space(points: &[[f64; 3]; 5], exact: &[Vector], scale: i32, judge: &mut Judge) {
     let [a, b, c, d, _] = *points;
-    let found = circumcentre3(a, b, c, d);
-    judge.equal("circumcentre3 in another order", circumcentre3(c, a, d, b), found);
+    let found = circumcenter3(a, b, c, d);
+    judge.equal("circumcenter3 in another order", circumcenter3(c, a, d, b), found);
     let [u, v, w] = [1, 2, 3].map(|i| minus(&exact[i], &exact[0]));
     let cross = |p: &Vector, q: &Vector| -> Vector {
         [(1, 2), (2, 0), (0, 1)].iter().map(|&(i, j)| &p[i] * &q[j] - &p[j] * &q[i]).collect()
@@ -233,11 +233,11 @@ fn centre_in_space(points: &[[f64; 3]; 5], exact: &[Vector], scale: i32, judge: 
     let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
     let volume: BigInt = dot(&u, &vw) * 2;
     let Some(found) = found else { return };
-    judge.equal("circumcentre3 of a plane", sign(&volume) != 0, true);
+    judge.equal("circumcenter3 of a plane", sign(&volume) != 0, true);
     for k in 0..3 {
         let offset = dot(&u, &u) * &vw[k] + dot(&v, &v) * &wu[k] + dot(&w, &w) * &uv[k];
         let is_right = is_nearest(&exact[0][k] * &volume + offset, volume.clone(), scale, found[k]);
-        judge.equal("circumcentre3 is the nearest", is_right, true);
+        judge.equal("circumcenter3 is the nearest", is_right, true);
     }
 }
 
@@ -247,7 +247,7 @@ fn in_space(points: [[f64; 3]; 5], radius: f64, judge: &mut Judge) {
     let exact: Vec<Vector> = points.iter().map(|p| p.iter().map(|&x| integer(x, scale)).collect()).collect();
     let side = |i: usize, j: usize, k: usize, l: usize| orientation(&[i, j, k, l].map(|i| &exact[i]));
     let turn = side(0, 1, 2, 3);
-    centre_in_space(&points, &exact, scale, judge);
+    center_in_space(&points, &exact, scale, judge);
     judge.sign("orient3d", orient3d(a, b, c, d), turn);
     judge.equal("lexicographic3", lexicographic3(a, b), a.partial_cmp(&b).expect("finite"));
     let line = crate::oracle::exact::axes(&exact[..3]).len() < 2;

@@ -16,7 +16,7 @@ pub(crate) fn judge_clear(corners: [[f64; 3]; 4], low: [f64; 3], high: [f64; 3],
 fn is_clear([a, b, c, d]: [[f64; 3]; 4], low: [f64; 3], high: [f64; 3]) -> bool {
     let exact = integers(&[a, b, c, d, low, high]);
     let [u, v, w, low, high] = [1, 2, 3, 4, 5].map(|i| minus(&exact[i], &exact[0]));
-    // The centre x, relative to a, has u.x = |u|^2 / 2 and so on: x = numerators / denominator.
+    // The center x, relative to a, has u.x = |u|^2 / 2 and so on: x = numerators / denominator.
     let denominator: BigInt = determinant(&[u.clone(), v.clone(), w.clone()]) * 2;
     if sign(&denominator) == 0 {
         return false;
@@ -26,14 +26,14 @@ fn is_clear([a, b, c, d]: [[f64; 3]; 4], low: [f64; 3], high: [f64; 3]) -> bool 
     let flip = BigInt::from(sign(&denominator));
     let numerator = |k: usize| (&uu * &vw[k] + &vv * &wu[k] + &ww * &uv[k]) * &flip;
     let denominator = denominator * &flip;
-    let centre: Vector = (0..3).map(numerator).collect();
+    let center: Vector = (0..3).map(numerator).collect();
     let beside = |k: usize| {
-        let below = &low[k] * &denominator - &centre[k];
-        let above = &centre[k] - &high[k] * &denominator;
+        let below = &low[k] * &denominator - &center[k];
+        let above = &center[k] - &high[k] * &denominator;
         below.max(above).max(BigInt::ZERO)
     };
     let distance: BigInt = (0..3).map(|k| beside(k).pow(2)).sum();
-    distance > dot(&centre, &centre)
+    distance > dot(&center, &center)
 }
 
 #[cfg(test)]

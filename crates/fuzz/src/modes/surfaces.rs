@@ -1,4 +1,4 @@
-//! Surfaces over points with heights: whose neighbour a place has, which cells have data, where contours run, what thinning leaves,
+//! Surfaces over points with heights: whose neighbor a place has, which cells have data, where contours run, what thinning leaves,
 //! each against its definition in integers; and the same bits whichever way the triangulation came about.
 
 use delone::surface::{ContourBand, ContourLine, Contours, Grid, Interpolator, Levels, Thinning, rasterize};
@@ -8,7 +8,7 @@ use delone_generators::Random;
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
 use crate::oracle::exact::{Vector, integer, integers, orientation, scale};
-use crate::oracle::rings::{Ring, Side, are_apart, are_neighbours, from_side};
+use crate::oracle::rings::{Ring, Side, are_apart, are_neighbors, from_side};
 
 /// Points and heights nearer to each other than this part of the largest leave contours no room: 2^-26. Rounding moves them by 2^-52.
 const ROOM: f64 = 1.490_116_119_384_765_6e-8;
@@ -116,7 +116,7 @@ fn places<const D: usize>(points: &[[f64; D]], random: &mut Random) -> Vec<[f64;
 /// Points outside by no more than 2^-48 of the largest coordinate are on the border; twice that for the sums here.
 const BORDER: f64 = 2.0 / (1_u64 << 48) as f64;
 
-/// Weights of a place: of both triangulations the same, none outside, of natural neighbours alone.
+/// Weights of a place: of both triangulations the same, none outside, of natural neighbors alone.
 fn judge_weights<T: Surround<Point = [f64; D]>, const D: usize, const C: usize>(
     d: &T,
     e: &T,
@@ -171,10 +171,10 @@ fn judge_weights<T: Surround<Point = [f64; D]>, const D: usize, const C: usize>(
             if is_inside && !((total - 1.0).abs() < 1e-12 && weights.iter().all(|weight| weight.1 >= 0.0)) {
                 return Err(format!("sum {total}: {}", what()));
             }
-            let is_neighbour =
+            let is_neighbor =
                 |v: VertexId| simplices.iter().any(|s| s.contains(&v) && conflicts(&s.map(&of_d), q));
-            if let Some(weight) = weights.iter().find(|weight| !is_neighbour(weight.0)) {
-                return Err(format!("{:?} is no natural neighbour: {}", weight.0, what()));
+            if let Some(weight) = weights.iter().find(|weight| !is_neighbor(weight.0)) {
+                return Err(format!("{:?} is no natural neighbor: {}", weight.0, what()));
             }
         }
     }
@@ -223,13 +223,13 @@ fn judge_raster(
     }
     let p = d.point(triangles[random.below(triangles.len())][0]);
     let step = size / (2 + random.below(8)) as f64;
-    // Centres on a point, or anywhere.
+    // Centers on a point, or anywhere.
     let corner =
         if once_in(random, 2) { [p[0] - 2.5 * step, p[1] + 2.5 * step] } else { [bounds.low[0], p[1]] };
     let Ok(grid) = Grid::new(corner, [step, -step], 6, 6) else { return Ok(()) };
     let values = rasterize(d, heights, &grid, |_| true).map_err(|error| error.to_string())?;
     for (i, &value) in values.iter().enumerate() {
-        let q = grid.centre(i % 6, i / 6);
+        let q = grid.center(i % 6, i / 6);
         if !q.iter().all(|x| x.is_finite()) {
             if value.is_nan() {
                 continue;
@@ -345,7 +345,7 @@ fn judge_shapes(lines: &[ContourLine], bands: &[ContourBand]) -> Judgement {
     segments.dedup();
     are_apart(&segments).map_err(|wrong| format!("lines cross: {wrong}: {lines:?}"))?;
     let polygons: Vec<Vec<Ring>> = bands.iter().flat_map(|band| band.polygons.clone()).collect();
-    are_neighbours(&polygons).map_err(|wrong| format!("bands: {wrong}: {bands:?}"))
+    are_neighbors(&polygons).map_err(|wrong| format!("bands: {wrong}: {bands:?}"))
 }
 
 /// No sample is further from the triangles of those that are left than was asked for.

@@ -49,8 +49,8 @@ pub(crate) fn crossing(rings: &[Ring]) -> Judgement {
     are_apart(&sides(rings).collect::<Vec<_>>())
 }
 
-/// The sides of neighbours, which have them both, once.
-pub(crate) fn are_neighbours(polygons: &[Vec<Ring>]) -> Judgement {
+/// The sides of neighbors, which have them both, once.
+pub(crate) fn are_neighbors(polygons: &[Vec<Ring>]) -> Judgement {
     for rings in polygons {
         border(rings).map_err(|wrong| format!("{wrong}: {rings:?}"))?;
     }

@@ -109,7 +109,7 @@ fn passed_on(own: &GeoKeys) -> Keys {
     Keys { numbers, doubles, texts: own.texts.clone(), are_complete: true }
 }
 
-/// Whether the points of a raster are the centres of its cells, and not their corners.
+/// Whether the points of a raster are the centers of its cells, and not their corners.
 pub(crate) fn is_point(numbers: &[u16]) -> bool {
     entry(numbers, RASTER).is_some_and(|e| e[3] == 2)
 }

@@ -157,7 +157,7 @@ pub(super) const TABLE: &[Row] = &[
     },
     Row {
         format: Format::Neigh,
-        title: "Triangle's neighbours",
+        title: "Triangle's neighbors",
         names: &["neigh"],
         also: &[],
         readers: Readers::NONE,

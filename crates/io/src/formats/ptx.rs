@@ -1,7 +1,7 @@
 //! Scans of Leica's text format (`.ptx`): one or several, each in a system of its own with a matrix that leads to the common one.
 //!
 //! Columns, rows, the place of the scanner, its axes, and a matrix of four rows by which points are multiplied as rows from the left; then
-//! `x y z intensity` and perhaps colours for each cell of the scan. A cell at the scanner itself has no measurement.
+//! `x y z intensity` and perhaps colors for each cell of the scan. A cell at the scanner itself has no measurement.
 //!
 //! Source: Leica Geosystems, "PTX format". Coordinates are rounded by 8 units in the last place of the largest term at most.
 

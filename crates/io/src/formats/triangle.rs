@@ -229,7 +229,7 @@ pub(crate) fn write_ele<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -
     Ok(())
 }
 
-/// Neighbours opposite each corner, numbered as in the `.ele` file; -1 across the border.
+/// Neighbors opposite each corner, numbered as in the `.ele` file; -1 across the border.
 pub(crate) fn write_neigh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
     let mut numbers = vec![-1_i64; mesh.triangulation.slot_count()];
     for (i, s) in mesh.simplices().enumerate() {

@@ -1,26 +1,26 @@
 //! Voronoi diagrams in Triangle's files: `.v.node` with the corners, `.v.edge` with the edges.
 //!
-//! Corner i is the circumcentre of triangle i of the `.ele` file, and edge i is dual to edge i of the `.edge` file: between
+//! Corner i is the circumcenter of triangle i of the `.ele` file, and edge i is dual to edge i of the `.edge` file: between
 //! the corners of two triangles, or a ray from one. It is the diagram of the points if the triangles are those of their
 //! Delaunay triangulation, all of them; of others it is merely dual. O(n log n).
 
 use std::io::Write;
 
 use delone::{Triangulation, VertexId};
-use delone_predicates::circumcentre;
+use delone_predicates::circumcenter;
 
 use super::triangle::NodeRows;
 use crate::middles::ordered;
 use crate::{Error, Mesh};
 
-/// Writes the corners of the Voronoi diagram, as a `.node` file: the circumcentres of the triangles that are not left out, in
-/// the order of the `.ele` file and counted from the base, rounded as [`circumcentre`] says. The attributes of the mesh are
+/// Writes the corners of the Voronoi diagram, as a `.node` file: the circumcenters of the triangles that are not left out, in
+/// the order of the `.ele` file and counted from the base, rounded as [`circumcenter`] says. The attributes of the mesh are
 /// continued linearly from the corners of the triangle; where it is too flat for that in floating point, they are means.
 ///
 /// Time and memory linear in the triangles.
 ///
 /// # Errors
-/// [`Error::FarCentre`] names a triangle, before anything is written, whose centre is no finite number.
+/// [`Error::FarCenter`] names a triangle, before anything is written, whose center is no finite number.
 ///
 /// ```
 /// use delone::Delaunay2;
@@ -41,17 +41,17 @@ pub fn write_voronoi_node<T: Triangulation<Point = [f64; 2]>>(
     mesh: &Mesh<T>,
 ) -> Result<(), Error> {
     let width = mesh.attributes.map_or(0, |attributes| attributes.width);
-    let mut centres = Vec::with_capacity(mesh.simplex_count());
+    let mut centers = Vec::with_capacity(mesh.simplex_count());
     let mut values = Vec::with_capacity(width * mesh.simplex_count());
     for (i, s) in mesh.simplices().enumerate() {
         let corners = mesh.triangulation.corners(s);
         let corners = [0, 1, 2].map(|k| corners.as_ref()[k]);
         let [a, b, c] = corners.map(|v| mesh.point(v));
-        centres.push(circumcentre(a, b, c).ok_or(Error::FarCentre { triangle: mesh.base + i })?);
+        centers.push(circumcenter(a, b, c).ok_or(Error::FarCenter { triangle: mesh.base + i })?);
         if let Some(attributes) = mesh.attributes {
             let [_, u, w] = weights([a, b, c]);
             let rows = corners.map(|v| attributes.row(v.index()));
-            // Differences, so that what is the same at all corners is the same at the centre.
+            // Differences, so that what is the same at all corners is the same at the center.
             values.extend((0..width).map(|k| {
                 let [x, y, z] = rows.map(|row| row.get(k).copied().unwrap_or_default());
                 x + (u * (y - x) + w * (z - x))
@@ -59,7 +59,7 @@ pub fn write_voronoi_node<T: Triangulation<Point = [f64; 2]>>(
         }
     }
     let rows =
-        NodeRows { base: mesh.base, columns: 2, points: &centres, width, values: &values, markers: None };
+        NodeRows { base: mesh.base, columns: 2, points: &centers, width, values: &values, markers: None };
     Ok(rows.write(out)?)
 }
 

@@ -15,7 +15,7 @@ pub struct Animation<W: Write> {
     /// Made from the first picture and kept, so that nothing jumps.
     style: Option<(View, Layers)>,
     size: [u32; 2],
-    /// The colours of the last picture.
+    /// The colors of the last picture.
     last: Vec<u8>,
 }
 
@@ -63,7 +63,7 @@ impl<W: Write> Animation<W> {
         });
         debug_assert_eq!([view.width, view.height], self.size);
         let canvas = png::draw(mesh, &view, layers, &self.options)?;
-        self.write(canvas.colours())
+        self.write(canvas.colors())
     }
 
     /// Adds a sketch.
@@ -73,17 +73,17 @@ impl<W: Write> Animation<W> {
     pub fn sketch(&mut self, sketch: &Sketch) -> Result<(), Error> {
         let window = self.options.window.into_iter().flatten();
         let canvas = sketch.draw(&View::around(window, self.options.size))?;
-        self.write(canvas.colours())
+        self.write(canvas.colors())
     }
 
     /// Writes what has changed since the last picture: the smallest box around it.
-    fn write(&mut self, colours: Vec<u8>) -> Result<(), Error> {
+    fn write(&mut self, colors: Vec<u8>) -> Result<(), Error> {
         let width = self.size[0] as usize;
         if self.last.is_empty() {
-            self.writer.write_image_data(&colours).map_err(failed)?;
+            self.writer.write_image_data(&colors).map_err(failed)?;
         } else {
             let old = self.last.chunks_exact(3);
-            let changed = colours.chunks_exact(3).zip(old).enumerate().filter(|(_, (new, old))| new != old);
+            let changed = colors.chunks_exact(3).zip(old).enumerate().filter(|(_, (new, old))| new != old);
             // A picture has a pixel at least.
             let (mut low, mut high) = ([width - 1, self.size[1] as usize - 1], [0, 0]);
             for (i, _) in changed {
@@ -97,10 +97,10 @@ impl<W: Write> Animation<W> {
             self.writer.set_frame_dimension(across as u32, down as u32).map_err(failed)?;
             self.writer.set_frame_position(low[0] as u32, low[1] as u32).map_err(failed)?;
             let rows = (low[1]..=high[1]).map(|y| 3 * (y * width + low[0])..3 * (y * width + high[0] + 1));
-            let part: Vec<u8> = rows.flat_map(|row| colours[row].iter().copied()).collect();
+            let part: Vec<u8> = rows.flat_map(|row| colors[row].iter().copied()).collect();
             self.writer.write_image_data(&part).map_err(failed)?;
         }
-        self.last = colours;
+        self.last = colors;
         Ok(())
     }
 

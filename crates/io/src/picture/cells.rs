@@ -1,10 +1,10 @@
-//! Pictures of Voronoi cells, coloured by size.
+//! Pictures of Voronoi cells, colored by size.
 
 use std::io::Write;
 
 use delone::Ring;
 
-use super::colour::{DENSITY, Density, EDGE, PAPER, POINT, Rgb};
+use super::color::{DENSITY, Density, EDGE, PAPER, POINT, Rgb};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
@@ -16,7 +16,7 @@ use crate::{Error, Format};
 struct Style {
     view: View,
     density: Density,
-    /// Typical distance of neighbours in pixels.
+    /// Typical distance of neighbors in pixels.
     spacing: f64,
 }
 
@@ -40,14 +40,14 @@ impl Style {
         let view = View::around(diagram.corners(), size);
         let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v)).collect();
         areas.sort_by(f64::total_cmp);
-        // A few outliers must not take all of the colours.
+        // A few outliers must not take all of the colors.
         let at = |share: f64| areas.get((areas.len() as f64 * share) as usize).copied().unwrap_or_default();
         let pixels = f64::from(view.width) * f64::from(view.height);
         let spacing = (pixels / areas.len().max(1) as f64).sqrt();
         Self { view, density: Density::between(at(0.02), at(0.98)), spacing }
     }
 
-    fn colour(&self, area: f64) -> Rgb {
+    fn color(&self, area: f64) -> Rgb {
         // Small cells are dense.
         DENSITY.at(self.density.of(area))
     }
@@ -71,7 +71,7 @@ fn dots<T: Tiles>(diagram: &T) -> impl Iterator<Item = (T::Tile, [f64; 2])> {
 }
 
 /// Dark sites on light cells, light ones on dark cells.
-fn dot_colour(cell: Rgb) -> Rgb {
+fn dot_color(cell: Rgb) -> Rgb {
     if cell.iter().map(|&part| u32::from(part)).sum::<u32>() > 330 { POINT } else { PAPER }
 }
 
@@ -81,7 +81,7 @@ fn png(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> Result<(), E
     let place = |ring: Ring| ring.points().map(|p| view.place(p)).collect::<Vec<_>>();
     for v in diagram.present() {
         let rings: Vec<_> = diagram.rings(v).map(place).collect();
-        canvas.fill(&rings, style.colour(diagram.area(v)));
+        canvas.fill(&rings, style.color(diagram.area(v)));
     }
     if style.outlines() {
         let sides = diagram.present().flat_map(|v| diagram.rings(v)).flat_map(Ring::sides);
@@ -89,10 +89,10 @@ fn png(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> Result<(), E
         canvas.lines(sides, EDGE, 255, style.line_width());
     }
     if let Some(radius) = style.dot_radius() {
-        for colour in [POINT, PAPER] {
-            let wanted = |tile| dot_colour(style.colour(diagram.area(tile))) == colour;
+        for color in [POINT, PAPER] {
+            let wanted = |tile| dot_color(style.color(diagram.area(tile))) == color;
             let positions = dots(diagram).filter(|(tile, _)| wanted(*tile)).map(|(_, p)| view.place(p));
-            canvas.dots(positions, radius, colour, 255);
+            canvas.dots(positions, radius, color, 255);
         }
     }
     canvas.legend(view, &DENSITY, "large cells", "small");
@@ -111,7 +111,7 @@ fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Res
     )?;
     for v in diagram.present() {
         let area = diagram.area(v);
-        write!(out, r#"<path fill="{}" d=""#, hex(style.colour(area)))?;
+        write!(out, r#"<path fill="{}" d=""#, hex(style.color(area)))?;
         for ring in diagram.rings(v) {
             for (i, p) in ring.points().enumerate() {
                 let [x, y] = view.place(p);
@@ -125,8 +125,8 @@ fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Res
     if let Some(radius) = style.dot_radius() {
         for (tile, p) in dots(diagram) {
             let [x, y] = view.place(p);
-            let colour = hex(dot_colour(style.colour(diagram.area(tile))));
-            writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{colour}"/>"#)?;
+            let color = hex(dot_color(style.color(diagram.area(tile))));
+            writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{color}"/>"#)?;
         }
     }
     super::svg::scale(out, view)?;

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use delone::surface::{ContourBand, ContourLine};
 
-use super::colour::{EDGE, HEIGHT, INK, PAPER, Rgb};
+use super::color::{EDGE, HEIGHT, INK, PAPER, Rgb};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::{hex, open, scale};
@@ -29,8 +29,8 @@ pub(crate) fn write_contours(
     }
 }
 
-/// The colour of a band: that of its middle, or of its only bound.
-fn colour(band: &ContourBand, [low, high]: [f64; 2]) -> Rgb {
+/// The color of a band: that of its middle, or of its only bound.
+fn color(band: &ContourBand, [low, high]: [f64; 2]) -> Rgb {
     let [lower, upper] = [band.lower.max(low), band.upper.min(high)];
     HEIGHT.at((lower / 2.0 + upper / 2.0 - low) / (high - low))
 }
@@ -60,7 +60,7 @@ fn png(out: &mut dyn Write, map: &ContourMap<'_>, view: &View) -> Result<(), Err
         for polygon in &band.polygons {
             let rings: Vec<Vec<[f64; 2]>> =
                 polygon.iter().map(|ring| ring.iter().map(|&p| view.place(p)).collect()).collect();
-            canvas.fill(&rings, colour(band, range));
+            canvas.fill(&rings, color(band, range));
         }
     }
     for (line, width) in lines(map) {
@@ -81,7 +81,7 @@ fn svg(out: &mut dyn Write, map: &ContourMap<'_>, view: &View) -> std::io::Resul
     };
     let range = map.range();
     for band in map.bands {
-        write!(out, r#"<path fill-rule="evenodd" fill="{}" d=""#, hex(colour(band, range)))?;
+        write!(out, r#"<path fill-rule="evenodd" fill="{}" d=""#, hex(color(band, range)))?;
         band.polygons.iter().flatten().try_for_each(|ring| path(out, ring, true))?;
         writeln!(out, r#""><title>{:?} to {:?}</title></path>"#, band.lower, band.upper)?;
     }

@@ -1,16 +1,16 @@
 //! Pictures of triangulations: readable at twenty points and at a million.
 //!
 //! What is drawn follows from the room there is: edges while they are a few pixels long, vertices while they
-//! do not touch, and otherwise the triangles alone, coloured by height with shading (a relief) or, without
+//! do not touch, and otherwise the triangles alone, colored by height with shading (a relief) or, without
 //! heights, by how dense the points are.
 //!
-//! Constraints are heavier lines, regions have soft colours of their own.
+//! Constraints are heavier lines, regions have soft colors of their own.
 //!
 //! A series of pictures with one window is a motion: see [`Animation`].
 
 mod animation;
 mod cells;
-mod colour;
+mod color;
 mod contours;
 mod png;
 mod raster;
@@ -45,7 +45,7 @@ pub struct Options {
     pub edges: Option<bool>,
     /// In the plane, draw vertices.
     pub points: Option<bool>,
-    /// In the plane, fill triangles with colour.
+    /// In the plane, fill triangles with color.
     pub fill: Option<bool>,
     /// In the plane, draw a disk of this radius, in coordinate units, around each vertex.
     pub disks: Option<f64>,
@@ -55,7 +55,7 @@ pub struct Options {
     pub faint: Vec<[[f64; 2]; 2]>,
     /// In the plane, draw the edges of what is left out faintly.
     pub outside: bool,
-    /// In the plane, colour triangles by their smallest angle, whatever regions and heights there are.
+    /// In the plane, color triangles by their smallest angle, whatever regions and heights there are.
     pub angles: bool,
     /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
@@ -85,7 +85,7 @@ struct Layers {
     fill: bool,
     edges: bool,
     points: bool,
-    /// Typical distance of neighbours in pixels.
+    /// Typical distance of neighbors in pixels.
     spacing: f64,
 }
 
@@ -94,10 +94,10 @@ impl Layers {
         let n = mesh.triangulation.vertex_count().max(1);
         let spacing = (f64::from(view.width) * f64::from(view.height) / n as f64).sqrt();
         let relief = mesh.heights.is_some();
-        let is_coloured = relief || options.angles;
+        let is_colored = relief || options.angles;
         Self {
             fill: options.fill.unwrap_or(
-                is_coloured || mesh.regions.is_some() || (spacing < 60.0 && options.disks.is_none()),
+                is_colored || mesh.regions.is_some() || (spacing < 60.0 && options.disks.is_none()),
             ),
             edges: options.edges.unwrap_or(spacing > if relief { 14.0 } else { 5.0 }),
             points: options.points.unwrap_or(spacing > if relief { 40.0 } else { 12.0 }),

@@ -9,7 +9,7 @@ use tiny_skia::{
     Transform,
 };
 
-use super::colour::{CONSTRAINT, DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
+use super::color::{CONSTRAINT, DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
 use super::relief::{Paint, area};
 use super::view::View;
@@ -62,8 +62,8 @@ fn fill(raster: &mut Raster, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, 
         let points = triangle.map(|i| mesh.points[i]);
         let corners = points.map(|p| view.place(p));
         let values = paint.corners(i, triangle, area(points));
-        raster.dot(corners[0], paint.colour(values[0]));
-        raster.triangle(corners, values, |value| paint.colour(value));
+        raster.dot(corners[0], paint.color(values[0]));
+        raster.triangle(corners, values, |value| paint.color(value));
     }
 }
 
@@ -92,7 +92,7 @@ impl Canvas {
     pub(super) fn lines(
         &mut self,
         lines: impl Iterator<Item = [[f64; 2]; 2]>,
-        colour: Rgb,
+        color: Rgb,
         alpha: u8,
         width: f64,
     ) {
@@ -109,15 +109,15 @@ impl Canvas {
             // Overlaps within one path do not add up, but very long paths are slow.
             if path.len() > 2000 {
                 let part = std::mem::take(&mut path);
-                self.stroke(part, colour, alpha, &stroke);
+                self.stroke(part, color, alpha, &stroke);
             }
         }
-        self.stroke(path, colour, alpha, &stroke);
+        self.stroke(path, color, alpha, &stroke);
     }
 
-    fn stroke(&mut self, path: PathBuilder, colour: Rgb, alpha: u8, stroke: &Stroke) {
+    fn stroke(&mut self, path: PathBuilder, color: Rgb, alpha: u8, stroke: &Stroke) {
         if let Some(path) = path.finish() {
-            self.0.stroke_path(&path, &brush(colour, alpha), stroke, Transform::identity(), None);
+            self.0.stroke_path(&path, &brush(color, alpha), stroke, Transform::identity(), None);
         }
     }
 
@@ -143,7 +143,7 @@ impl Canvas {
         &mut self,
         positions: impl Iterator<Item = [f64; 2]>,
         radius: f64,
-        colour: Rgb,
+        color: Rgb,
         alpha: u8,
     ) {
         for [x, y] in positions {
@@ -152,7 +152,7 @@ impl Canvas {
             if let Some(path) = path.finish() {
                 self.0.fill_path(
                     &path,
-                    &brush(colour, alpha),
+                    &brush(color, alpha),
                     tiny_skia::FillRule::Winding,
                     Transform::identity(),
                     None,
@@ -162,7 +162,7 @@ impl Canvas {
     }
 
     /// Red, green and blue of all pixels, row by row.
-    pub(super) fn colours(&self) -> Vec<u8> {
+    pub(super) fn colors(&self) -> Vec<u8> {
         self.0.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
     }
 
@@ -174,7 +174,7 @@ impl Canvas {
     }
 
     /// Fills closed rings; where one is inside of another there is a hole.
-    pub(super) fn fill(&mut self, rings: &[Vec<[f64; 2]>], colour: Rgb) {
+    pub(super) fn fill(&mut self, rings: &[Vec<[f64; 2]>], color: Rgb) {
         let mut path = PathBuilder::new();
         for ring in rings {
             for (i, &[x, y]) in ring.iter().enumerate() {
@@ -183,8 +183,8 @@ impl Canvas {
             path.close();
         }
         if let Some(path) = path.finish() {
-            // Without smoothing, so that nothing shines through between neighbours.
-            let mut brush = brush(colour, 255);
+            // Without smoothing, so that nothing shines through between neighbors.
+            let mut brush = brush(color, 255);
             brush.anti_alias = false;
             let rule = tiny_skia::FillRule::EvenOdd;
             self.0.fill_path(&path, &brush, rule, Transform::identity(), None);
@@ -204,14 +204,14 @@ impl Canvas {
         self.scale(view);
     }
 
-    /// The legend of the colours.
+    /// The legend of the colors.
     pub(super) fn legend(&mut self, view: &View, ramp: &Ramp, low: &str, high: &str) {
         let Some(top) = view.strip() else { return };
         let (baseline, margin) = (top + 14.0, 24.0);
         let bar = (f64::from(view.width) / 4.0).min(360.0);
         for i in 0..bar as u32 {
-            let colour = ramp.at(f64::from(i) / bar);
-            self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], colour);
+            let color = ramp.at(f64::from(i) / bar);
+            self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], color);
         }
         self.text([margin, baseline + 16.0], low);
         self.text([margin + bar - text_width(high), baseline + 16.0], high);
@@ -232,9 +232,9 @@ impl Canvas {
         }
     }
 
-    fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], colour: Rgb) {
+    fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], color: Rgb) {
         if let Some(rectangle) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
-            self.0.fill_rect(rectangle, &brush(colour, 255), Transform::identity(), None);
+            self.0.fill_rect(rectangle, &brush(color, 255), Transform::identity(), None);
         }
     }
 
@@ -251,7 +251,7 @@ impl Canvas {
                     if coverage == 0 || px >= width || py >= height {
                         continue;
                     }
-                    let mixed = super::colour::mix(PAPER, INK, f64::from(coverage) / 255.0);
+                    let mixed = super::color::mix(PAPER, INK, f64::from(coverage) / 255.0);
                     if let Some(pixel) = PremultipliedColorU8::from_rgba(mixed[0], mixed[1], mixed[2], 255) {
                         self.0.pixels_mut()[py * width + px] = pixel;
                     }

@@ -1,7 +1,7 @@
-//! Filling triangles pixel by pixel: each pixel centre belongs to one triangle, so nothing shines through
-//! between neighbours.
+//! Filling triangles pixel by pixel: each pixel center belongs to one triangle, so nothing shines through
+//! between neighbors.
 
-use super::colour::Rgb;
+use super::color::Rgb;
 
 /// A picture being filled.
 pub(super) struct Raster {
@@ -16,12 +16,12 @@ impl Raster {
         Self { width, height, pixels: vec![paper; width * height] }
     }
 
-    /// Fills the pixels whose centres are in a triangle, interpolating two values between its corners.
+    /// Fills the pixels whose centers are in a triangle, interpolating two values between its corners.
     pub(super) fn triangle(
         &mut self,
         corners: [[f64; 2]; 3],
         values: [[f64; 2]; 3],
-        colour: impl Fn([f64; 2]) -> Rgb,
+        color: impl Fn([f64; 2]) -> Rgb,
     ) {
         let [a, b, c] = corners;
         let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
@@ -43,17 +43,17 @@ impl Raster {
                 let weights = [cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area];
                 if weights.iter().all(|&w| w >= 0.0) {
                     let value = [0, 1].map(|k| (0..3).map(|i| weights[i] * values[i][k]).sum());
-                    self.pixels[y * self.width + x] = colour(value);
+                    self.pixels[y * self.width + x] = color(value);
                 }
             }
         }
     }
 
-    /// Colours the pixel that holds a position: triangles smaller than a pixel still show.
-    pub(super) fn dot(&mut self, at: [f64; 2], colour: Rgb) {
+    /// Colors the pixel that holds a position: triangles smaller than a pixel still show.
+    pub(super) fn dot(&mut self, at: [f64; 2], color: Rgb) {
         let (x, y) = (at[0] as usize, at[1] as usize);
         if x < self.width && y < self.height {
-            self.pixels[y * self.width + x] = colour;
+            self.pixels[y * self.width + x] = color;
         }
     }
 }

@@ -1,14 +1,14 @@
-//! Colours of triangles: by region, shaded height, density, or smallest angle.
+//! Colors of triangles: by region, shaded height, density, or smallest angle.
 
 use delone::Triangulation;
 
-use super::colour::{ANGLE, DENSITY, Density, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
+use super::color::{ANGLE, DENSITY, Density, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
 const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
 
-/// The colours of a surface's triangles.
+/// The colors of a surface's triangles.
 pub(super) enum Paint<'a> {
     Relief(Relief<'a>),
     /// By the area.
@@ -19,7 +19,7 @@ pub(super) enum Paint<'a> {
     Angles(Vec<f64>),
 }
 
-/// Height colours and light at each point.
+/// Height colors and light at each point.
 pub(super) struct Relief<'a> {
     heights: &'a [f64],
     /// The brightness at each point, 1 for flat ground.
@@ -59,7 +59,7 @@ impl<'a> Paint<'a> {
         Self::Regions(values.iter().map(number).collect())
     }
 
-    /// The colours and what the ends of them mean, if there is an order.
+    /// The colors and what the ends of them mean, if there is an order.
     pub(super) fn ramp(&self) -> Option<&'static Ramp> {
         match self {
             Self::Relief(_) => Some(&HEIGHT),
@@ -69,7 +69,7 @@ impl<'a> Paint<'a> {
         }
     }
 
-    /// Colour and light at the corners of triangle `i`, of `area`: the value on the ramp or the number of the region, and
+    /// Color and light at the corners of triangle `i`, of `area`: the value on the ramp or the number of the region, and
     /// the brightness.
     pub(super) fn corners(&self, i: usize, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
         match self {
@@ -80,8 +80,8 @@ impl<'a> Paint<'a> {
         }
     }
 
-    /// The colour of a value and a brightness.
-    pub(super) fn colour(&self, [value, light]: [f64; 2]) -> Rgb {
+    /// The color of a value and a brightness.
+    pub(super) fn color(&self, [value, light]: [f64; 2]) -> Rgb {
         // The mean of equal numbers may be off by a little.
         self.ramp().map_or_else(
             || mix(numbered(value.round() as usize), PAPER, 0.3),

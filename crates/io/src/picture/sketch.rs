@@ -2,15 +2,15 @@
 
 use std::io::Write;
 
-use super::colour::{EDGE, INK, LINK, POINT, Rgb, numbered};
+use super::color::{EDGE, INK, LINK, POINT, Rgb, numbered};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::{hex, open};
 use super::view::View;
-use super::{check_size, colour};
+use super::{check_size, color};
 use crate::{Error, Format};
 
-/// The role of something in a sketch, which decides its colour.
+/// The role of something in a sketch, which decides its color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Tone {
@@ -30,7 +30,7 @@ pub enum Tone {
 
 impl Tone {
     /// Told apart by everyone (Okabe and Ito's palette).
-    fn colour(self) -> Rgb {
+    fn color(self) -> Rgb {
         match self {
             Self::Faint => [205, 214, 219],
             Self::Plain => EDGE,
@@ -48,13 +48,13 @@ impl Tone {
 pub enum Mark {
     /// A filled polygon.
     Area(Vec<[f64; 2]>, Tone),
-    /// A polygon in a colour of its own, by a number.
+    /// A polygon in a color of its own, by a number.
     Patch(Vec<[f64; 2]>, usize),
     /// A segment.
     Line([[f64; 2]; 2], Tone),
     /// A point.
     Dot([f64; 2], Tone),
-    /// A point in a colour of its own, by a number.
+    /// A point in a color of its own, by a number.
     Spot([f64; 2], usize),
     /// A circle around a point.
     Ring([f64; 2], f64, Tone),
@@ -73,8 +73,8 @@ pub struct Sketch {
 const LINE: f64 = 1.2;
 const DOT: f64 = 3.0;
 
-fn dark(colour: Rgb) -> Rgb {
-    colour::shade(colour, 0.6)
+fn dark(color: Rgb) -> Rgb {
+    color::shade(color, 0.6)
 }
 
 impl Sketch {
@@ -84,23 +84,23 @@ impl Sketch {
     }
 
     pub(super) fn draw(&self, view: &View) -> Result<Canvas, Error> {
-        let mut canvas = Canvas::from(&Raster::new(view.width, view.height, colour::PAPER))?;
+        let mut canvas = Canvas::from(&Raster::new(view.width, view.height, color::PAPER))?;
         let scale = f64::from(view.width.max(view.height)) / 600.0;
         let ring = |corners: &[[f64; 2]]| vec![corners.iter().map(|&p| view.place(p)).collect::<Vec<_>>()];
         for mark in &self.marks {
             match mark {
                 Mark::Area(corners, tone) => {
-                    canvas.fill(&ring(corners), colour::mix(tone.colour(), colour::PAPER, 0.35));
+                    canvas.fill(&ring(corners), color::mix(tone.color(), color::PAPER, 0.35));
                 }
                 Mark::Patch(corners, k) => canvas.fill(&ring(corners), numbered(*k)),
                 Mark::Line(ends, tone) => {
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE };
                     let line = ends.map(|p| view.place(p));
-                    canvas.lines(std::iter::once(line), line_colour(*tone), 255, width * scale);
+                    canvas.lines(std::iter::once(line), line_color(*tone), 255, width * scale);
                 }
                 Mark::Dot(p, tone) => {
                     let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT };
-                    canvas.dots(std::iter::once(view.place(*p)), radius * scale, dot_colour(*tone), 255);
+                    canvas.dots(std::iter::once(view.place(*p)), radius * scale, dot_color(*tone), 255);
                 }
                 Mark::Spot(p, k) => {
                     canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(numbered(*k)), 255);
@@ -108,7 +108,7 @@ impl Sketch {
                 Mark::Ring(p, radius, tone) => {
                     let circle = polygon(*p, *radius).map(|p| view.place(p));
                     let sides = (0..circle.len()).map(|k| [circle[k], circle[(k + 1) % circle.len()]]);
-                    canvas.lines(sides, line_colour(*tone), 255, LINE * scale);
+                    canvas.lines(sides, line_color(*tone), 255, LINE * scale);
                 }
             }
         }
@@ -123,28 +123,28 @@ impl Sketch {
         let scale = f64::from(view.width.max(view.height)) / 600.0;
         for mark in &self.marks {
             match mark {
-                Mark::Area(corners, tone) => area(out, view, corners, tone.colour(), 0.65)?,
+                Mark::Area(corners, tone) => area(out, view, corners, tone.color(), 0.65)?,
                 Mark::Patch(corners, k) => area(out, view, corners, numbered(*k), 1.0)?,
                 Mark::Line(ends, tone) => {
                     let [[ax, ay], [bx, by]] = ends.map(|p| view.place(p));
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE } * scale;
-                    let colour = hex(line_colour(*tone));
+                    let color = hex(line_color(*tone));
                     writeln!(
                         out,
-                        r#"<path stroke="{colour}" stroke-width="{width:.2}" stroke-linecap="round" d="M{ax:.2} {ay:.2}L{bx:.2} {by:.2}"/>"#
+                        r#"<path stroke="{color}" stroke-width="{width:.2}" stroke-linecap="round" d="M{ax:.2} {ay:.2}L{bx:.2} {by:.2}"/>"#
                     )?;
                 }
                 Mark::Dot(p, tone) => {
                     let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT } * scale;
-                    dot(out, view, *p, radius, dot_colour(*tone))?;
+                    dot(out, view, *p, radius, dot_color(*tone))?;
                 }
                 Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(numbered(*k)))?,
                 Mark::Ring(p, radius, tone) => {
                     let [x, y] = view.place(*p);
-                    let (r, colour) = (view.length(*radius), hex(line_colour(*tone)));
+                    let (r, color) = (view.length(*radius), hex(line_color(*tone)));
                     writeln!(
                         out,
-                        r#"<circle cx="{x:.2}" cy="{y:.2}" r="{r:.2}" fill="none" stroke="{colour}" stroke-width="{:.2}"/>"#,
+                        r#"<circle cx="{x:.2}" cy="{y:.2}" r="{r:.2}" fill="none" stroke="{color}" stroke-width="{:.2}"/>"#,
                         LINE * scale
                     )?;
                 }
@@ -163,26 +163,26 @@ impl Sketch {
 }
 
 /// The corners of a circle that looks round.
-fn polygon(centre: [f64; 2], radius: f64) -> [[f64; 2]; 64] {
+fn polygon(center: [f64; 2], radius: f64) -> [[f64; 2]; 64] {
     std::array::from_fn(|k| {
         let (sin, cos) = (std::f64::consts::TAU * k as f64 / 64.0).sin_cos();
-        [centre[0] + radius * cos, centre[1] + radius * sin]
+        [center[0] + radius * cos, center[1] + radius * sin]
     })
 }
 
-fn line_colour(tone: Tone) -> Rgb {
+fn line_color(tone: Tone) -> Rgb {
     match tone {
         Tone::Seen => LINK,
-        other => other.colour(),
+        other => other.color(),
     }
 }
 
-fn dot_colour(tone: Tone) -> Rgb {
+fn dot_color(tone: Tone) -> Rgb {
     match tone {
         Tone::Plain => POINT,
         Tone::Seen => LINK,
         Tone::New => INK,
-        other => other.colour(),
+        other => other.color(),
     }
 }
 
@@ -190,18 +190,18 @@ fn area(
     out: &mut dyn Write,
     view: &View,
     corners: &[[f64; 2]],
-    colour: Rgb,
+    color: Rgb,
     opacity: f64,
 ) -> std::io::Result<()> {
     let path: Vec<String> =
         corners.iter().map(|&p| view.place(p)).map(|[x, y]| format!("{x:.2} {y:.2}")).collect();
-    let fill = hex(colour);
+    let fill = hex(color);
     writeln!(out, r#"<path fill="{fill}" fill-opacity="{opacity}" d="M{}Z"/>"#, path.join("L"))
 }
 
-fn dot(out: &mut dyn Write, view: &View, p: [f64; 2], radius: f64, colour: Rgb) -> std::io::Result<()> {
+fn dot(out: &mut dyn Write, view: &View, p: [f64; 2], radius: f64, color: Rgb) -> std::io::Result<()> {
     let [x, y] = view.place(p);
-    writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{}"/>"#, hex(colour))
+    writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{}"/>"#, hex(color))
 }
 
 /// Writes a sketch of a window as a picture: SVG or PNG.

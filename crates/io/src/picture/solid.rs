@@ -3,14 +3,14 @@
 use std::io::Write;
 
 use super::Options;
-use super::colour::{PAPER, POINT, Rgb, shade};
+use super::color::{PAPER, POINT, Rgb, shade};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
 use super::view::View;
 use crate::{Error, Format, Solid};
 
-/// The colour of a face in full light, and of one that a cut has laid open.
+/// The color of a face in full light, and of one that a cut has laid open.
 const FACE: Rgb = [126, 178, 214];
 const INSIDE: Rgb = [240, 196, 128];
 /// Light from everywhere, and from the lamp.
@@ -67,7 +67,7 @@ struct Visible {
     /// Its mean depth, towards the viewer.
     depth: f64,
     corners: Vec<[f64; 2]>,
-    colour: Rgb,
+    color: Rgb,
 }
 
 /// Draws a closed surface; the points of one without faces.
@@ -122,12 +122,12 @@ impl Visible {
         let lit = (0..3).map(|k| lamp[k] * normal[k]).sum::<f64>() / length;
         let mean = face.iter().map(|&i| depth(i) / face.len() as f64).sum();
         let paint = if solid.laid_open.get(i) == Some(&true) { INSIDE } else { FACE };
-        let colour = shade(paint, AMBIENT + LAMP * lit.max(0.0));
-        (normal[2] > 0.0 || camera.wireframe).then_some(Self { depth: mean, corners, colour })
+        let color = shade(paint, AMBIENT + LAMP * lit.max(0.0));
+        (normal[2] > 0.0 || camera.wireframe).then_some(Self { depth: mean, corners, color })
     }
 
     fn outline(&self) -> Rgb {
-        shade(self.colour, 0.65)
+        shade(self.color, 0.65)
     }
 }
 
@@ -141,9 +141,9 @@ fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if style.outline.is_none() {
         for face in faces {
-            raster.dot(face.corners[0], face.colour);
+            raster.dot(face.corners[0], face.color);
             for side in face.corners[1..].windows(2) {
-                raster.triangle([face.corners[0], side[0], side[1]], [[0.0; 2]; 3], |_| face.colour);
+                raster.triangle([face.corners[0], side[0], side[1]], [[0.0; 2]; 3], |_| face.color);
             }
         }
     }
@@ -151,7 +151,7 @@ fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
     if let Some(width) = style.outline {
         for face in faces {
             if style.fill {
-                canvas.fill(std::slice::from_ref(&face.corners), face.colour);
+                canvas.fill(std::slice::from_ref(&face.corners), face.color);
             }
             let next = face.corners.iter().cycle().skip(1);
             canvas.lines(face.corners.iter().zip(next).map(|(&a, &b)| [a, b]), face.outline(), 255, width);
@@ -168,8 +168,8 @@ fn svg(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
     super::svg::open(out, view)?;
     writeln!(out, r#"<g stroke-width="{:.2}" stroke-linejoin="round">"#, style.outline.unwrap_or(0.6))?;
     for face in faces {
-        let stroke = hex(if style.outline.is_some() { face.outline() } else { face.colour });
-        let fill = if style.fill { hex(face.colour) } else { "none".to_owned() };
+        let stroke = hex(if style.outline.is_some() { face.outline() } else { face.color });
+        let fill = if style.fill { hex(face.color) } else { "none".to_owned() };
         write!(out, r#"<path fill="{fill}" stroke="{stroke}" d=""#)?;
         for (k, [x, y]) in face.corners.iter().enumerate() {
             write!(out, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' })?;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::Triangulation;
 
-use super::colour::{CONSTRAINT, DISK, EDGE, FAINT, HULL, LINK, POINT, Rgb};
+use super::color::{CONSTRAINT, DISK, EDGE, FAINT, HULL, LINK, POINT, Rgb};
 use super::relief::{Paint, area};
 use super::view::View;
 use super::{Layers, Options};
@@ -26,9 +26,9 @@ pub(super) fn write(
             let corners = triangle.map(|i| mesh.points[i]);
             let values = paint.corners(i, triangle, area(corners));
             let mean = [0, 1].map(|k| values.iter().map(|value| value[k]).sum::<f64>() / 3.0);
-            let colour = hex(paint.colour(mean));
+            let color = hex(paint.color(mean));
             let [a, b, c] = corners.map(|p| place(view, p));
-            writeln!(out, r#"<path fill="{colour}" stroke="{colour}" d="M{a}L{b}L{c}Z"/>"#)?;
+            writeln!(out, r#"<path fill="{color}" stroke="{color}" d="M{a}L{b}L{c}Z"/>"#)?;
         }
         writeln!(out, "</g>")?;
     }
@@ -67,15 +67,15 @@ pub(super) fn write(
     writeln!(out, "</svg>")
 }
 
-/// Lines of one colour.
+/// Lines of one color.
 fn segments(
     out: &mut dyn Write,
     view: &View,
     lines: impl Iterator<Item = [[f64; 2]; 2]>,
-    colour: Rgb,
+    color: Rgb,
     width: f64,
 ) -> io::Result<()> {
-    write!(out, r#"<path fill="none" stroke="{}" stroke-width="{width:.2}" d=""#, hex(colour))?;
+    write!(out, r#"<path fill="none" stroke="{}" stroke-width="{width:.2}" d=""#, hex(color))?;
     for [a, b] in lines {
         write!(out, "M{}L{}", place(view, a), place(view, b))?;
     }

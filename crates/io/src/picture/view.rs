@@ -51,7 +51,7 @@ impl View {
         let longer = if longer > 0.0 { longer } else { 1.0 };
         let drawn = extent.map(|side| side / longer * room);
         let pixels = drawn.map(|side| (side + 2.0 * margin).max(size / 3.0).ceil());
-        let centred = [0, 1].map(|k| (pixels[k] - drawn[k]) / 2.0);
+        let centered = [0, 1].map(|k| (pixels[k] - drawn[k]) / 2.0);
         let strip = if size > 8.0 * STRIP { STRIP } else { 0.0 };
         Self {
             width: pixels[0] as u32,
@@ -59,7 +59,7 @@ impl View {
             low: low.map(|x| if x.is_finite() { x * half } else { 0.0 }),
             half,
             scale: room / longer,
-            offset: [centred[0], pixels[1] - centred[1]],
+            offset: [centered[0], pixels[1] - centered[1]],
         }
     }
 

@@ -79,7 +79,7 @@ impl<W: Write> Writer<W> {
 struct Head {
     columns: Option<usize>,
     rows: Option<usize>,
-    /// Along each axis: where the lower left cell is, and whether that is its centre.
+    /// Along each axis: where the lower left cell is, and whether that is its center.
     place: [Option<(f64, bool)>; 2],
     step: [Option<f64>; 2],
     nodata: Option<f64>,
@@ -127,8 +127,8 @@ impl Head {
         let mut step = [0.0; 2];
         for (k, name) in ["xllcorner", "yllcorner"].into_iter().enumerate() {
             step[k] = self.step[k].ok_or_else(|| missing("cellsize"))?;
-            let (place, is_centre) = self.place[k].ok_or_else(|| missing(name))?;
-            corner[k] = if is_centre { place - 0.5 * step[k] } else { place };
+            let (place, is_center) = self.place[k].ok_or_else(|| missing(name))?;
+            corner[k] = if is_center { place - 0.5 * step[k] } else { place };
         }
         corner[1] += rows as f64 * step[1];
         let grid = placed(corner, [step[0], -step[1]], columns, rows)?;

@@ -68,9 +68,9 @@ pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
 }
 
 /// Where the pixels of a picture are, in six lines: the size of a pixel to the east, two of rotation, the size of a pixel to the next row, and
-/// the centre of the first pixel (Esri).
+/// the center of the first pixel (Esri).
 fn world(grid: &Grid) -> String {
-    let ([dx, dy], [x, y]) = (grid.step(), grid.centre(0, 0));
+    let ([dx, dy], [x, y]) = (grid.step(), grid.center(0, 0));
     format!("{dx:?}\n0.0\n0.0\n{dy:?}\n{x:?}\n{y:?}\n")
 }
 

@@ -1,6 +1,6 @@
 //! Rasters in files, a file a format: GeoTIFF, ESRI ASCII grids and NumPy arrays.
 //!
-//! Rows are written as they come, from memory for a few of them. Cells are areas: a value belongs to the centre of its cell,
+//! Rows are written as they come, from memory for a few of them. Cells are areas: a value belongs to the center of its cell,
 //! and what the files say is where the corner of the first cell is. Cost: O(cells); compression is shared among the threads.
 
 mod asc;
@@ -218,7 +218,7 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// The centres of the cells that have data as points with heights, row by row.
+    /// The centers of the cells that have data as points with heights, row by row.
     ///
     /// ```
     /// use std::io::Cursor;
@@ -235,7 +235,7 @@ impl Raster {
         let rows = self.values.chunks_exact(self.grid.columns().max(1));
         for (row, values) in rows.enumerate() {
             for (column, &value) in values.iter().enumerate().filter(|cell| !cell.1.is_nan()) {
-                cloud.push(self.grid.centre(column, row), value);
+                cloud.push(self.grid.center(column, row), value);
             }
         }
         let without = self.values.len() - cloud.xy.len();

@@ -88,7 +88,7 @@ fn stages_agree() {
     assert!(told > 5000 && equal > 20, "{told} {equal}");
 }
 
-/// Four cocircular centres without radius: both ends at the centre of the circle. Mirror images: both at the same place.
+/// Four cocircular centers without radius: both ends at the center of the circle. Mirror images: both at the same place.
 #[test]
 fn ties_are_ties() {
     let pair = DiskPair::new([0.0, 0.0], [1.0, 1.0], 0.0);

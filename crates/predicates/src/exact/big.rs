@@ -74,13 +74,13 @@ pub(super) fn angle(coordinates: &[f64; 6]) -> Sign {
     dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])).sign()
 }
 
-pub(super) fn centre_side(coordinates: &[f64; 8]) -> Sign {
+pub(super) fn center_side(coordinates: &[f64; 8]) -> Sign {
     let p = align(coordinates);
     let [u, v, w] = [1, 2, 3].map(|i| difference(&p[i], &p[0]));
     (dot(&u, &u) * dot(&v, &w) - dot(&v, &v) * dot(&u, &w)).sign()
 }
 
-pub(super) fn centre_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
+pub(super) fn center_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
     let p = align(coordinates);
     let (u, v) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
@@ -133,7 +133,7 @@ pub(super) fn side_in_plane(coordinates: &[f64; 12]) -> Sign {
 
 /// The point at the same distance from three points, correctly rounded; a coordinate that no `f64` can hold is
 /// infinite. None for collinear points.
-pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
+pub(super) fn circumcenter(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
     let (p, scale) = aligned(coordinates);
     let (b, c) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (bb, cc) = (dot(&b, &b), dot(&c, &c));

@@ -81,7 +81,7 @@ pub(super) fn angle(coordinates: &[f64; 6]) -> Option<Sign> {
 }
 
 /// Points o, a, b, p: |a - o|^2 (b - o).(p - o) against |b - o|^2 (a - o).(p - o).
-pub(super) fn centre_side(coordinates: &[f64; 8]) -> Option<Sign> {
+pub(super) fn center_side(coordinates: &[f64; 8]) -> Option<Sign> {
     let [ox, oy, ax, ay, bx, by, px, py] = align(coordinates)?;
     let (o, [u, v, w]) = ([ox, oy], [[ax, ay], [bx, by], [px, py]]);
     let dot = |p: [i64; 2], q: [i64; 2]| dot_cross(p, q, o).0;
@@ -89,7 +89,7 @@ pub(super) fn centre_side(coordinates: &[f64; 8]) -> Option<Sign> {
 }
 
 /// Points o, a, b: the same for the directions of the axes.
-pub(super) fn centre_direction(coordinates: &[f64; 6]) -> Option<[Sign; 2]> {
+pub(super) fn center_direction(coordinates: &[f64; 6]) -> Option<[Sign; 2]> {
     let [ox, oy, ax, ay, bx, by] = align(coordinates)?;
     let (uu, _) = dot_cross([ax, ay], [ax, ay], [ox, oy]);
     let (vv, _) = dot_cross([bx, by], [bx, by], [ox, oy]);

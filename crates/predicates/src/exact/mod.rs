@@ -101,18 +101,18 @@ pub(crate) fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     integers::angle(&coordinates).unwrap_or_else(|| big::angle(&coordinates))
 }
 
-pub(crate) fn centre_side(o: Point2, a: Point2, b: Point2, p: Point2) -> Sign {
+pub(crate) fn center_side(o: Point2, a: Point2, b: Point2, p: Point2) -> Sign {
     let coordinates = [o[0], o[1], a[0], a[1], b[0], b[1], p[0], p[1]];
-    integers::centre_side(&coordinates).unwrap_or_else(|| big::centre_side(&coordinates))
+    integers::center_side(&coordinates).unwrap_or_else(|| big::center_side(&coordinates))
 }
 
-pub(crate) fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
+pub(crate) fn center_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
     let coordinates = [o[0], o[1], a[0], a[1], b[0], b[1]];
-    integers::centre_direction(&coordinates).unwrap_or_else(|| big::centre_direction(&coordinates))
+    integers::center_direction(&coordinates).unwrap_or_else(|| big::center_direction(&coordinates))
 }
 
-pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-    big::circumcentre(&[a[0], a[1], b[0], b[1], c[0], c[1]])
+pub(crate) fn circumcenter(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+    big::circumcenter(&[a[0], a[1], b[0], b[1], c[0], c[1]])
 }
 
 #[cold]
@@ -206,8 +206,8 @@ mod tests {
         let six = [1.0, 2.0, 7.0, 3.0, 4.0, 9.0];
         assert!(integers::orient2d(&six).is_some() && integers::in_circle(&flat).is_some());
         assert!(integers::compare_distances(&six).is_some() && integers::compare_with_radius(&six).is_some());
-        assert!(integers::angle(&six).is_some() && integers::centre_side(&flat).is_some());
-        assert!(integers::centre_direction(&six).is_some());
+        assert!(integers::angle(&six).is_some() && integers::center_side(&flat).is_some());
+        assert!(integers::center_direction(&six).is_some());
         let solid: [f64; 15] = std::array::from_fn(|i| ((i * i * i) % 17) as f64);
         let (nine, twelve) = (solid.first_chunk().expect("9 of 15"), solid.first_chunk().expect("12 of 15"));
         assert!(space::orient3d(twelve).is_some() && space::in_sphere(&solid).is_some());

@@ -156,7 +156,7 @@ fn rows_of<const D: usize>(Scaled { numbers, weights, scale }: &Scaled) -> Rows 
 
 /// The point with the same power to three sites, correctly rounded; a coordinate that no `f64` can hold is infinite. None for
 /// collinear points.
-pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2]> {
+pub(crate) fn power_center(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2]> {
     let coordinates = [b.0, c.0, a.0].concat();
     let scaled = on_one_scale(&coordinates, &[b.1, c.1, a.1]);
     let Rows { differences: rows, lifts, .. } = rows_of::<2>(&scaled);

@@ -398,10 +398,10 @@ fn the_bounds_of_lines_cover_their_formulas() {
     assert!(value.error >= SIDE_BOUND * 6.0 * 0.7, "the bound is far too large: {} u", value.error / U / 6.0);
 }
 
-/// The terms of a circumcentre: twice an area, and the offset from a corner times twice of that.
+/// The terms of a circumcenter: twice an area, and the offset from a corner times twice of that.
 #[test]
-fn the_bounds_of_circumcentres_cover_their_formulas() {
-    use crate::line::centres::{AREA_BOUND, TERMS_BOUND};
+fn the_bounds_of_circumcenters_cover_their_formulas() {
+    use crate::line::centers::{AREA_BOUND, TERMS_BOUND};
     let d = Bounded::difference(1.0);
     let area = d.times(d).plus(d.times(d));
     let square = d.times(d).plus(d.times(d));

@@ -1,9 +1,9 @@
-//! The squared distance of the centre of the smallest orthogonal sphere from a corner, as a fraction: one formula for all kinds of
+//! The squared distance of the center of the smallest orthogonal sphere from a corner, as a fraction: one formula for all kinds of
 //! numbers.
 
 use crate::ball::Number;
 
-/// `numerator / (4 denominator)` is the squared distance of the centre from the last corner.
+/// `numerator / (4 denominator)` is the squared distance of the center from the last corner.
 pub(super) struct Fraction<T> {
     pub(super) numerator: T,
     pub(super) denominator: T,
@@ -38,12 +38,12 @@ pub(super) fn smallest<T: Number, const D: usize, const N: usize>(
     }
     let w = row(2);
     let l = lift(2, length(&w));
-    // The centre is at (h v x w + k w x u + l u x v) / (2 u . v x w).
+    // The center is at (h v x w + k w x u + l u x v) / (2 u . v x w).
     let (vw, wu, uv) = (normal(&v, &w), normal(&w, &u), normal(&u, &v));
-    let centre: [T; 3] =
+    let center: [T; 3] =
         std::array::from_fn(|axis| h.times(&vw[axis]).plus(&k.times(&wu[axis])).plus(&l.times(&uv[axis])));
     let volume = u[0].times(&vw[0]).plus(&u[1].times(&vw[1])).plus(&u[2].times(&vw[2]));
-    Fraction { numerator: length(&centre), denominator: volume.square() }
+    Fraction { numerator: length(&center), denominator: volume.square() }
 }
 
 /// The squared length.

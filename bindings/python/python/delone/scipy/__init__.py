@@ -7,7 +7,7 @@ isinstance(tri, scipy.spatial.Delaunay)     # and SciPy's compiled interpolators
 spatial.griddata(points, values, (x, y), method="cubic")
 
 with delone.scipy.patched():                # for programs of others
-    analyse(points)
+    analyze(points)
 
 Classes are those of `delone` and of SciPy at once. Where the two differ they do as SciPy does:
 

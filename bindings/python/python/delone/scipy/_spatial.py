@@ -146,7 +146,7 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
 
     def _refuse_out_of_range(self, *, alone: bool) -> None:
         """A ValueError for arrays that are assigned and do not fit the others, which SciPy's compiled code would follow out of
-        memory; `alone` are simplices without what SciPy knows of their neighbours."""
+        memory; `alone` are simplices without what SciPy knows of their neighbors."""
         parts = [self.simplices] if alone else [self.simplices, self.neighbors, self.min_bound, self.max_bound]
         if not all(isinstance(part, np.ndarray) for part in parts):
             # SciPy takes nothing else.
@@ -175,7 +175,7 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
         return facets if self.ndim == 2 else np.sort(facets, axis=1)
 
     def find_simplex(self, xi: ArrayLike, bruteforce: bool = False, tol: float | None = None) -> NDArray[np.int32]:
-        """The simplices that hold points, as `delone.Delaunay` finds them; after simplices, neighbours or other parts were
+        """The simplices that hold points, as `delone.Delaunay` finds them; after simplices, neighbors or other parts were
         assigned as SciPy does, in what was assigned."""
         rows, shape = as_rows(xi, self.ndim)
         by_force = bool(bruteforce)

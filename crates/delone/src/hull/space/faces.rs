@@ -1,4 +1,4 @@
-//! Flat faces from the triangles of a shell: coplanar neighbours joined, corners in the middle of sides left out.
+//! Flat faces from the triangles of a shell: coplanar neighbors joined, corners in the middle of sides left out.
 //!
 //! Cost: O(f) exact orientations for f triangles; O(f log f) for their order. Faces are rows of one array: most are triangles, and a list
 //! for each would cost more than finding them.

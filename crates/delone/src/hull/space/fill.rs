@@ -1,10 +1,10 @@
-//! The triangles between the neighbours of a corner that take its place on the hull.
+//! The triangles between the neighbors of a corner that take its place on the hull.
 //!
-//! They are the facets of the hull of the neighbours that the corner sees. Each two of them meet in an edge, and those that meet one other
-//! are ears of the ring: three neighbours in a row with all others below their plane. For a few neighbours ears are cut off until three are
+//! They are the facets of the hull of the neighbors that the corner sees. Each two of them meet in an edge, and those that meet one other
+//! are ears of the ring: three neighbors in a row with all others below their plane. For a few neighbors ears are cut off until three are
 //! left; for many, and where more than three are in one plane, the hull is made.
 //!
-//! Source: Devillers, "On deletion in Delaunay triangulations", IJCGA 2002, for ears. Cost: O(k^3) for k neighbours, but they are few; else
+//! Source: Devillers, "On deletion in Delaunay triangulations", IJCGA 2002, for ears. Cost: O(k^3) for k neighbors, but they are few; else
 //! O(k log k).
 
 use delone_predicates::{Sign, orient3d};
@@ -12,10 +12,10 @@ use delone_predicates::{Sign, orient3d};
 use super::Hull3;
 use crate::mesh::Dimension;
 
-/// Neighbours, up to which a hole is filled by ears; with more of them a hull is faster.
+/// Neighbors, up to which a hole is filled by ears; with more of them a hull is faster.
 const EAR_NEIGHBORS: usize = 16;
 
-/// The triangles that take the place of a corner with a ring of neighbours, seen from the corner; each from its least neighbour, sorted. None
+/// The triangles that take the place of a corner with a ring of neighbors, seen from the corner; each from its least neighbor, sorted. None
 /// if there are no such, as for points that are not those of the hull.
 pub(super) fn fill(points: &[[f64; 3]], v: usize, ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     let ears = if ring.len() <= EAR_NEIGHBORS { ears(points, ring) } else { None };
@@ -54,7 +54,7 @@ fn ears(points: &[[f64; 3]], ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     Some(fill)
 }
 
-/// Fills by the hull of the neighbours.
+/// Fills by the hull of the neighbors.
 fn seen(points: &[[f64; 3]], v: usize, ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     // In order of their indices, as the hull of all of them has them.
     let mut around = ring.to_vec();

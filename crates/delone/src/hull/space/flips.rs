@@ -3,7 +3,7 @@
 //! A point is looked for along the ray to it from a point o inside of the first tetrahedron. The facet that the ray leaves the
 //! hull by tells whether the point is outside, and is split in three then. Across each edge of the star of the new point, if
 //! the point sees what is there, the edge is flipped; or a corner with three facets, which the point has covered, is cut off
-//! (three facets give way to one). An edge whose flip would fold the hull waits until its neighbours have been flipped. No
+//! (three facets give way to one). An edge whose flip would fold the hull waits until its neighbors have been flipped. No
 //! facet is forgotten: each points to the one, two or three that took its place, which the ray is traced through. A facet on the way
 //! that has the point behind it ends the search: the point is inside.
 //!
@@ -72,7 +72,7 @@ struct Flips {
     /// For each facet how many took its place.
     counts: Vec<u8>,
     /// Inside of the first tetrahedron.
-    centre: [f64; 3],
+    center: [f64; 3],
     /// Facets of the star of the new point whose edges across from it are to be tested.
     pending: Vec<u32>,
 }
@@ -80,22 +80,22 @@ struct Flips {
 impl Flips {
     fn new(points: &[[f64; 3]], corners: [usize; 4]) -> Option<Self> {
         let shell = Shell::new(points.to_vec(), corners);
-        let centre = [0, 1, 2].map(|k| corners.iter().map(|&i| 0.25 * points[i][k]).sum());
+        let center = [0, 1, 2].map(|k| corners.iter().map(|&i| 0.25 * points[i][k]).sum());
         // Strictly inside, whatever rounding has done.
         let is_inside = shell.facets.iter().all(|facet| {
             let [a, b, c] = facet.corners.map(|i| points[i as usize]);
-            orient3d(a, b, c, centre).is_negative()
+            orient3d(a, b, c, center).is_negative()
         });
-        is_inside.then(|| Self { shell, counts: vec![0; 4], centre, pending: Vec::new() })
+        is_inside.then(|| Self { shell, counts: vec![0; 4], center, pending: Vec::new() })
     }
 
-    /// On which side of the plane through the centre and two corners a point is: positive on the left, seen from outside.
+    /// On which side of the plane through the center and two corners a point is: positive on the left, seen from outside.
     fn side(&self, a: u32, b: u32, q: [f64; 3]) -> Sign {
         let [a, b] = [a, b].map(|i| self.shell.points[i as usize]);
-        orient3d(self.centre, a, b, q)
+        orient3d(self.center, a, b, q)
     }
 
-    /// The facet by which the ray from the centre to a point leaves the hull. None at the first facet, of those that ever were, that has
+    /// The facet by which the ray from the center to a point leaves the hull. None at the first facet, of those that ever were, that has
     /// the point behind it: the hull has grown since.
     fn trace<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<u32> {
         let corners = |f: u32| self.shell.facets[f as usize].corners;
@@ -115,7 +115,7 @@ impl Flips {
             if self.shell.facets[f as usize].alive {
                 return is_seen.then_some(f);
             }
-            // A facet in a plane with the centre has nothing behind it.
+            // A facet in a plane with the center has nothing behind it.
             if !is_seen && self.side(a, b, self.shell.points[c as usize]).is_positive() {
                 return None;
             }
@@ -156,7 +156,7 @@ impl Flips {
                 let beyond = &mut self.shell.facets[g as usize];
                 let j = (0..3).find(|&j| beyond.corners[j] == from && beyond.corners[(j + 1) % 3] == to);
                 beyond.across[j.expect("facets across an edge share it")] = t;
-                // What waited for its neighbour waits no more.
+                // What waited for its neighbor waits no more.
                 if k > 0 {
                     self.pending.push(g);
                 }

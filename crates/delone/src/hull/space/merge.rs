@@ -1,7 +1,7 @@
 //! Corners that are within a length of the hull of the others are left out.
 //!
 //! Points on the side of a box are on a plane no more once the box is turned: some are corners, by a last place. In rounds each corner is
-//! measured against the hull of its neighbours, and of those within the length the nearest go first, no two neighbours in one round.
+//! measured against the hull of its neighbors, and of those within the length the nearest go first, no two neighbors in one round.
 //! A point that was left out remembers a triangle of what is left that is within the length of it. When a corner of that triangle is to go,
 //! another must be found, or it stays. So no point is ever further from the result than the length.
 //!
@@ -10,7 +10,7 @@
 //!
 //! After the first round only corners around those that went are measured again (`rings.rs`): no other could go.
 //!
-//! Cost: O(n log n) for n corners; for each corner that is measured, the hull of its neighbours and the distances of what it holds.
+//! Cost: O(n log n) for n corners; for each corner that is measured, the hull of its neighbors and the distances of what it holds.
 
 use delone_predicates::lexicographic3;
 
@@ -26,7 +26,7 @@ use crate::order::quantize::scaled;
 use crate::tally::Tally;
 
 /// Points and triangles that are compared for one corner at most, some tens of milliseconds; a corner that would take more stays. Only hubs come
-/// near: a corner of 1,000 neighbours that holds 1,000 points.
+/// near: a corner of 1,000 neighbors that holds 1,000 points.
 const MOST_PAIRS: usize = 1 << 20;
 
 /// A length that leaves nothing.
@@ -190,7 +190,7 @@ impl Out<'_> {
     }
 }
 
-/// Whether a corner is further than a length beyond a plane that has all its neighbours on the other side: then it is to stay.
+/// Whether a corner is further than a length beyond a plane that has all its neighbors on the other side: then it is to stay.
 fn sticks_out(points: &[[f64; 3]], v: usize, ring: &[usize], length: f64) -> bool {
     let mut sum = [0.0; 3];
     let to = |w: usize| minus(points[w], points[v]);
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(of(1e-12), (0, 0), "all stick out");
         for (length, least) in [(1e-4, 1), (1e-3, 500), (1e-2, 2500)] {
             let (gone, measured) = of(length);
-            // A corner has six neighbours in the mean, and each is measured at first.
+            // A corner has six neighbors in the mean, and each is measured at first.
             assert!(gone >= least && measured <= points.len() + 6 * gone, "{length}: {gone} {measured}");
         }
     }

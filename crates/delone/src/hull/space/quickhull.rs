@@ -11,7 +11,7 @@ use super::faces::Faces;
 use super::shell::{Facet, NONE, Shell};
 use super::start::Start;
 
-/// The faces of points that span space, with names for these. They are sorted along a curve first: neighbours in space are neighbours in
+/// The faces of points that span space, with names for these. They are sorted along a curve first: neighbors in space are neighbors in
 /// memory then, which halves the time for a million corners.
 pub(super) fn faces(points: &[[f64; 3]], name: impl Fn(usize) -> usize) -> Faces {
     let mut order: Vec<(u32, u32)> = morton_keys(points).zip(0..).collect();

@@ -1,18 +1,18 @@
-//! The surface of a hull as rings of neighbours, from which corners are taken.
+//! The surface of a hull as rings of neighbors, from which corners are taken.
 //!
 //! A corner of a hull is one of the hull of fewer corners too, and only facets around a corner change when it goes: triangles between its
-//! neighbours take their place (`fill.rs`). So rings of other corners than these stay as they are.
+//! neighbors take their place (`fill.rs`). So rings of other corners than these stay as they are.
 //!
-//! Cost: O(n) for the rings of n corners whose numbers of neighbours are bounded, O(k log k) for k neighbours of a corner that goes, and
+//! Cost: O(n) for the rings of n corners whose numbers of neighbors are bounded, O(k log k) for k neighbors of a corner that goes, and
 //! O(k) for each ring that changes, once a round.
 
 use super::sides::{Sides, value};
 
-/// The neighbours of corners, counter-clockwise seen from outside.
+/// The neighbors of corners, counter-clockwise seen from outside.
 pub(super) struct Rings(Vec<Vec<usize>>);
 
 impl Rings {
-    /// The rings of facets that close a surface, with corners below a number; each begins with its least neighbour.
+    /// The rings of facets that close a surface, with corners below a number; each begins with its least neighbor.
     pub(super) fn of(count: usize, facets: &[[usize; 3]]) -> Self {
         let sides = Sides::of(count, facets.iter().flat_map(turns));
         let ring = |v: usize| {
@@ -25,12 +25,12 @@ impl Rings {
         Self((0..count).map(ring).collect())
     }
 
-    /// The neighbours of a corner.
+    /// The neighbors of a corner.
     pub(super) fn around(&self, v: usize) -> &[usize] {
         &self.0[v]
     }
 
-    /// How the rings around a corner change, if triangles take its place: for each neighbour those that come in the place of the
+    /// How the rings around a corner change, if triangles take its place: for each neighbor those that come in the place of the
     /// corner. None if the triangles do not fill the ring, as for points that are not those of the hull.
     pub(super) fn changes(&self, v: usize, fill: &[[usize; 3]]) -> Option<Vec<Change>> {
         let ring = self.around(v);
@@ -48,7 +48,7 @@ impl Rings {
         Some(all)
     }
 
-    /// Takes corners out, none of which are neighbours, with all changes around them; returns the corners whose rings are others now, in
+    /// Takes corners out, none of which are neighbors, with all changes around them; returns the corners whose rings are others now, in
     /// order.
     pub(super) fn change(&mut self, mut changes: Vec<Change>) -> Vec<usize> {
         changes.sort_unstable_by_key(|change| (change.at, change.gone));
@@ -69,7 +69,7 @@ impl Rings {
     }
 }
 
-/// A neighbour that leaves a ring, and those that take its place.
+/// A neighbor that leaves a ring, and those that take its place.
 pub(super) struct Change {
     at: usize,
     gone: usize,
@@ -118,7 +118,7 @@ mod tests {
     fn rings_are_those_of_the_hull_of_what_is_left() {
         let mut random = Random::new(22);
         for (round, count) in [10, 30, 200, 30].into_iter().enumerate() {
-            // With a hub, whose neighbours are too many for ears; the last set is on a ball of the lattice, with flat faces.
+            // With a hub, whose neighbors are too many for ears; the last set is on a ball of the lattice, with flat faces.
             let point = |k: usize, random: &mut Random| match (round, k) {
                 (3, _) => [0; 3].map(|_| random.below(4) as f64),
                 (_, 0) => [0.0, 0.0, 3.0],

@@ -12,7 +12,7 @@
 //!
 //! Cost in the plane, expected over random orders: O(n) memory, about 86 bytes a triangle, and O(log n) conflict tests a
 //! search. Then the triangle is looked up around all of its corners at once, and a walk goes through triangles in conflict with the
-//! query, which are as many at most as its neighbours would be. In space as many tetrahedra as ever were.
+//! query, which are as many at most as its neighbors would be. In space as many tetrahedra as ever were.
 
 mod remove;
 
@@ -154,7 +154,7 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
         facet
     }
 
-    /// Makes a facet and the one that equals it neighbours, as soon as both have come.
+    /// Makes a facet and the one that equals it neighbors, as soon as both have come.
     fn glue(&mut self, t: u32, k: usize, open: &mut BTreeMap<Facet<N>, (u32, usize)>) {
         let facet = self.facet(t, k);
         match open.remove(&facet) {

@@ -219,7 +219,7 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
         self.turn(p, x, touched, fill);
     }
 
-    /// Makes two sides of a facet neighbours.
+    /// Makes two sides of a facet neighbors.
     fn meet(&mut self, (t, k): Side, (u, j): Side) {
         self.nodes[t as usize].neighbors[k] = u;
         self.nodes[u as usize].neighbors[j] = t;

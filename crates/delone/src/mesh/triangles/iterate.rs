@@ -106,7 +106,7 @@ impl Mesh2 {
     pub(crate) fn border(&self) -> Border<'_> {
         let next = match self.dimension() {
             Dimension::Empty | Dimension::Point => EdgeId::NONE,
-            // An end of the line has one neighbour: the two ghosts of its segment are all of its star.
+            // An end of the line has one neighbor: the two ghosts of its segment are all of its star.
             Dimension::Line => {
                 Border { mesh: self, first: self.ghost_edge, next: self.ghost_edge, line: false, lone: None }
                     .map(|v| self.incident[v.index()])

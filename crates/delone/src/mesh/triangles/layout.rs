@@ -1,4 +1,4 @@
-//! Layout: a mesh moves to other places, so that neighbours in the plane are neighbours in memory again.
+//! Layout: a mesh moves to other places, so that neighbors in the plane are neighbors in memory again.
 //!
 //! A mesh that changes loses its order in memory. Given an order of its vertices, each goes to an even place with
 //! a free one after it, and with it go up to four triangles of its star, to the four slots that belong to the two
@@ -48,7 +48,7 @@ impl Room {
         }
     }
 
-    /// Spreads values by rank over the places; free places get a copy of their neighbour's value.
+    /// Spreads values by rank over the places; free places get a copy of their neighbor's value.
     pub(crate) fn spread<T: Copy>(
         self,
         by_rank: impl ExactSizeIterator<Item = T>,

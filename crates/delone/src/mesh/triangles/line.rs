@@ -83,7 +83,7 @@ impl Mesh2 {
                 }
                 self.ghost_edge = EdgeId::NONE;
             }
-            // The end of the line: e runs from it to its neighbour a, one ghost on either side.
+            // The end of the line: e runs from it to its neighbor a, one ghost on either side.
             [e] => {
                 let f = self.twin(e);
                 let (out_of_a, into_a) = (self.twin(f.previous()), self.twin(e.next()));
@@ -118,7 +118,7 @@ impl Mesh2 {
                     self.free_triangle(t);
                 }
             }
-            _ => unreachable!("a vertex of a line has one or two neighbours"),
+            _ => unreachable!("a vertex of a line has one or two neighbors"),
         }
     }
 

@@ -98,15 +98,15 @@ fn a_dent_in_the_hull() {
             v = hull[dented];
             let [a, b] = [count - 1, 1].map(|i| d.base.points[hull[(dented + i) % count].index()]);
             let inside = [0.7 * a[0] + 0.3 * b[0] + 0.0, 0.7 * a[1] + 0.3 * b[1]];
-            let centre = [0.5, 0.5];
-            d.base.points[v.index()] = [0, 1].map(|k| inside[k] + 0.01 * (centre[k] - inside[k]));
+            let center = [0.5, 0.5];
+            d.base.points[v.index()] = [0, 1].map(|k| inside[k] + 0.01 * (center[k] - inside[k]));
         });
         assert_eq!(found, Flaw::Hull(v));
     }
 }
 
 #[test]
-fn one_sided_neighbours() {
+fn one_sided_neighbors() {
     let broken = flaw(|d| {
         let e = EdgeId::new(0);
         let other = d.base.mesh.twin(e.next());
@@ -116,7 +116,7 @@ fn one_sided_neighbours() {
 }
 
 #[test]
-fn mutual_neighbours_with_other_ends() {
+fn mutual_neighbors_with_other_ends() {
     let broken = flaw(|d| {
         let (e, f) = (EdgeId::new(0), EdgeId::new(1));
         let (across_e, across_f) = (d.base.mesh.twin(e), d.base.mesh.twin(f));

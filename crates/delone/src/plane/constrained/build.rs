@@ -145,7 +145,7 @@ pub(super) fn indices(segments: &[[VertexId; 2]]) -> Vec<[usize; 2]> {
 /// Triangulates points and makes segments constraints, but for those that cross one before them: these are refused. Gives the
 /// ends of all segments as vertices too, and which are refused, in increasing order.
 ///
-/// Until the end vertices are at their positions in Morton order, where their neighbours are near them in memory.
+/// Until the end vertices are at their positions in Morton order, where their neighbors are near them in memory.
 pub(super) fn constrained(
     points: Vec<[f64; 2]>,
     segments: &[[usize; 2]],

@@ -1,6 +1,6 @@
 //! Points and segments come and go. After every step the triangulation is the canonical one of what is left.
 //!
-//! A new point on a constraint splits it. A vertex goes as from a Delaunay triangulation: its star is that of its neighbours'
+//! A new point on a constraint splits it. A vertex goes as from a Delaunay triangulation: its star is that of its neighbors'
 //! Delaunay triangulation with it, whatever constraints there are around, because it sees all of them. Where a segment goes
 //! its edges are flipped, unless another segment covers them.
 

@@ -11,10 +11,10 @@
 //! # In place
 //!
 //! n points closed by ghost triangles have exactly 2n - 2 triangles. The points at positions [lo, hi) of the
-//! order own the triangles 2 lo .. 2 hi - 2; merging two neighbours at position m uses the two triangles
+//! order own the triangles 2 lo .. 2 hi - 2; merging two neighbors at position m uses the two triangles
 //! 2m - 2 and 2m - 1 between them. Connecting two vertices turns one ghost into a finite triangle, removing an
 //! edge turns a finite triangle and a ghost into two ghosts; the count never changes, and memory of
-//! neighbouring points is neighbouring memory.
+//! neighboring points is neighboring memory.
 //!
 //! While building, the ghost of a hull edge u -> v (interior on its left) always has the corners
 //! (v, u, ghost): edge 0 is the hull edge reversed, edge 1 leads to the ghost of the previous hull edge, edge
@@ -167,7 +167,7 @@ struct Cells<'a> {
     filters: &'a [Filter],
 }
 
-/// Parts that wait for their right neighbour, with the cuts behind them, deeper and deeper.
+/// Parts that wait for their right neighbor, with the cuts behind them, deeper and deeper.
 type Waiting = Vec<(Part, Cut)>;
 
 impl Tree<'_> {
@@ -264,7 +264,7 @@ impl Tree<'_> {
     }
 
     /// Triangulates a run of points of a box that is a subtree. Recursion follows the nesting of boxes, whose depth the
-    /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
+    /// exponent range bounds; inside a box the parts that wait for a neighbor are on a stack.
     fn run<K: Merging>(
         &self,
         index: usize,

@@ -103,7 +103,7 @@ impl<K: Kernel> Layer<K> {
         Ok(v)
     }
 
-    /// A place for a point that falls where `spot` says, near its neighbours in memory.
+    /// A place for a point that falls where `spot` says, near its neighbors in memory.
     #[inline]
     pub(in crate::plane) fn place_for(&mut self, spot: Spot, q: [f64; 2]) -> Place {
         let near = match spot {

@@ -150,7 +150,7 @@ impl<K: Kernel> Layer<K> {
         }
     }
 
-    /// Lays everything out in memory as in the plane, with room between neighbours. Returns for each old place
+    /// Lays everything out in memory as in the plane, with room between neighbors. Returns for each old place
     /// the new one.
     pub(in crate::plane) fn lay_out(&mut self, room: Room) -> Vec<Place> {
         let order = self.sort(room);

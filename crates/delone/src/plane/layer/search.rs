@@ -48,7 +48,7 @@ pub(in crate::plane) fn near<K: Kernel, T: Tally>(
 }
 
 /// Phase 3, exactly: outwards from the triangle that contains `q`, across edges behind which the circle contains it. The
-/// corners of these triangles would be the neighbours of `q`, and the nearest vertex is one of them.
+/// corners of these triangles would be the neighbors of `q`, and the nearest vertex is one of them.
 fn search_conflicts<K: Kernel, T: Tally>(
     layer: &Layer<K>,
     triangle: TriangleId,

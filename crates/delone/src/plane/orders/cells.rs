@@ -5,7 +5,7 @@
 //!
 //! Cost: O(1) a corner for regions inside, O(d (d + s)) for one with d sides where s sides of what it is clipped to are near.
 
-use delone_predicates::{Line, circumcentre};
+use delone_predicates::{Line, circumcenter};
 
 use super::circle::Circle;
 use super::{OrderK2, OrderRegion2};
@@ -26,13 +26,13 @@ impl OrderK2<'_> {
     /// Clips all regions. Sites may be outside. The clipped regions tile what they are clipped to.
     pub fn cells(&self, region: &Region2) -> OrderCells2 {
         let point = |v: VertexId| self.triangulation.point(v);
-        let centre = |circle: &Circle| match circle.on.map(|v| (!v.is_ghost()).then(|| point(v))) {
-            [Some(a), Some(b), Some(c)] => circumcentre(a, b, c),
+        let center = |circle: &Circle| match circle.on.map(|v| (!v.is_ghost()).then(|| point(v))) {
+            [Some(a), Some(b), Some(c)] => circumcenter(a, b, c),
             _ => None,
         };
         let far = [f64::INFINITY; 2];
-        let centres = self.circles.iter().map(|circle| centre(circle).unwrap_or(far)).collect();
-        let mut builder = Builder::new(region, self.region_count(), self.region_count(), centres);
+        let centers = self.circles.iter().map(|circle| center(circle).unwrap_or(far)).collect();
+        let mut builder = Builder::new(region, self.region_count(), self.region_count(), centers);
         for own in self.regions() {
             let corners = own.corners().iter().map(|&corner| corner as usize / 3);
             builder.add(own.index(), corners, || {
@@ -64,7 +64,7 @@ impl OrderCells2 {
         self.cells.perimeter(VertexId::new(region.index()))
     }
 
-    /// The centre of mass of a region. `None` if it is empty, or so small that its rounded corners have no area.
+    /// The center of mass of a region. `None` if it is empty, or so small that its rounded corners have no area.
     pub fn centroid(&self, region: OrderRegion2) -> Option<[f64; 2]> {
         self.cells.centroid(VertexId::new(region.index()))
     }

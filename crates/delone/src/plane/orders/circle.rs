@@ -1,6 +1,6 @@
 //! The regions of a diagram, and the circles that are their corners.
 
-use delone_predicates::circumcentre;
+use delone_predicates::circumcenter;
 
 use super::OrderK2;
 use super::grow::NO_REGION;
@@ -24,7 +24,7 @@ pub struct OrderRegion2<'a> {
     pub(super) index: usize,
 }
 
-/// A circle through three sites whose centre is a corner of three regions.
+/// A circle through three sites whose center is a corner of three regions.
 #[derive(Clone, Copy, Debug)]
 pub struct OrderCircle2<'a> {
     pub(super) diagram: &'a OrderK2<'a>,
@@ -51,7 +51,7 @@ impl<'a> OrderRegion2<'a> {
         self.diagram.sites_of(self.index)
     }
 
-    /// Its corners, counter-clockwise: the circles whose centres they are.
+    /// Its corners, counter-clockwise: the circles whose centers they are.
     pub fn circles(self) -> impl Iterator<Item = OrderCircle2<'a>> + Clone {
         let circle = move |&corner: &u32| OrderCircle2 { diagram: self.diagram, index: corner as usize / 3 };
         self.corners().iter().map(circle).filter(|circle| circle.is_finite())
@@ -99,15 +99,15 @@ impl<'a> OrderCircle2<'a> {
         sites.iter().copied().filter(move |v| !on.contains(v))
     }
 
-    /// The three regions around its centre.
+    /// The three regions around its center.
     pub fn regions(self) -> [OrderRegion2<'a>; 3] {
         self.circle().regions.map(|region| OrderRegion2 { diagram: self.diagram, index: region as usize })
     }
 
-    /// Its centre, rounded (see [`delone_predicates::circumcentre`]); `None` where it is too far away for `f64`.
-    pub fn centre(self) -> Option<[f64; 2]> {
+    /// Its center, rounded (see [`delone_predicates::circumcenter`]); `None` where it is too far away for `f64`.
+    pub fn center(self) -> Option<[f64; 2]> {
         let [a, b, c] = self.on().map(|v| self.diagram.triangulation.point(v));
-        circumcentre(a, b, c)
+        circumcenter(a, b, c)
     }
 
     pub(super) fn is_finite(self) -> bool {

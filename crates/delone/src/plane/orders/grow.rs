@@ -15,7 +15,7 @@
 //! diagrams to triangles. Every decision is an in-circle test of four sites under the canonical rule.
 //!
 //! Cost: O(1) expected for each circle on evenly spread sites, nearly all polygons having three or four corners; O(d log d)
-//! for a region with d neighbours at worst; O(k) more for the sites of a region.
+//! for a region with d neighbors at worst; O(k) more for the sites of a region.
 
 use super::MAX_CIRCLES;
 use crate::error::Error;

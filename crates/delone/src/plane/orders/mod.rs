@@ -1,7 +1,7 @@
 //! Voronoi diagrams of higher order: the plane by the set of the k nearest sites.
 //!
 //! A region of order k is where the same k sites are nearest. Order 1 is the Voronoi diagram, order n - 1 of n sites that of
-//! the furthest one. Its corners are centres of circles through three sites with k - 1 or k - 2 others inside; its unbounded
+//! the furthest one. Its corners are centers of circles through three sites with k - 1 or k - 2 others inside; its unbounded
 //! regions are the *k-sets*, which a line cuts off from all other sites.
 //!
 //! Source: Shamos & Hoey, "Closest-point problems", FOCS 1975; Lee 1982 for how it is made (`grow.rs`). Guibas, Knuth and Sharir

@@ -4,7 +4,7 @@
 //! is: one of the two Delaunay triangles at its edge has the site in its circle, as the circles around the ends of its base
 //! through its apex cover it.
 //!
-//! Cost: O(d) for a site with d neighbours.
+//! Cost: O(d) for a site with d neighbors.
 
 use delone_predicates::{lexicographic, orient2d};
 
@@ -54,7 +54,7 @@ impl NearestSites2 {
         }
     }
 
-    /// Whether one more site can be added, whatever its number of neighbours.
+    /// Whether one more site can be added, whatever its number of neighbors.
     pub(super) fn check_room(&self) -> Result<(), Error> {
         let most = self.layer.mesh.vertex_count;
         if self.planes.seats() + 4 * self.layer.points.len() > MAX_SEATS {

@@ -3,7 +3,7 @@
 //! Each Voronoi cell is cut by rays from its site to its corners into *radial triangles*, one for each Delaunay
 //! edge that leaves the site. While sites are inserted, all radial triangles that ever were are kept.
 //! The *plane* of a site holds those that its insertion made: the *interior* ones around it, in angular order, and
-//! for each neighbour three *exterior* ones in the neighbour's cell. A triangle that an insertion destroys points to
+//! for each neighbor three *exterior* ones in the neighbor's cell. A triangle that an insertion destroys points to
 //! the interior triangle that the bisector of the old site and the new one borders. A query tests that bisector first: if
 //! the old site stays nearer, one of the three exterior triangles beyond it is next, else a binary search in the plane.
 //!
@@ -11,9 +11,9 @@
 //! Algorithmica 1992, §5, with the pointers of the first remark after Theorem 5.4.
 //!
 //! Cost: O(n log n) expected to build, O(n) expected size (Theorems 5.3 and 5.2): sites are located by the structure itself, and a
-//! new site is a random one, so that the site of a plane that is searched has 36 neighbours at most on average (Devillers 1998,
+//! new site is a random one, so that the site of a plane that is searched has 36 neighbors at most on average (Devillers 1998,
 //! Lemma 1). O(log^2 n) expected for a query, whatever the sites, if they came in random order. A query on the border of two cells
-//! looks at all neighbours of its site. Choose it for its bound; `Delaunay2::nearest` is faster on data of this world, and can
+//! looks at all neighbors of its site. Choose it for its bound; `Delaunay2::nearest` is faster on data of this world, and can
 //! forget.
 
 mod grow;

@@ -2,26 +2,26 @@
 //!
 //! Rays are never computed: on which side of one a point is, an exact predicate says.
 //!
-//! Cost: O(log d) rays for the interior triangle of a site that had d neighbours, two rays for an exterior one; 28 bytes a
-//! neighbour.
+//! Cost: O(log d) rays for the interior triangle of a site that had d neighbors, two rays for an exterior one; 28 bytes a
+//! neighbor.
 
-use delone_predicates::{Sign, angle, centre_direction, centre_side};
+use delone_predicates::{Sign, angle, center_direction, center_side};
 
 use crate::ids::{EdgeId, Place};
 use crate::tally::Tally;
 
-/// Triangles for each neighbour in a plane: the interior one, and in the neighbour's cell those towards the following
-/// neighbour, the site, and the neighbour before.
+/// Triangles for each neighbor in a plane: the interior one, and in the neighbor's cell those towards the following
+/// neighbor, the site, and the neighbor before.
 pub(super) const KINDS: usize = 4;
 pub(super) const INTERIOR: usize = 0;
 pub(super) const FOLLOWING: usize = 1;
 pub(super) const TO_SITE: usize = 2;
 pub(super) const BEFORE: usize = 3;
 
-/// The most neighbours in all planes.
+/// The most neighbors in all planes.
 pub(super) const MAX_SEATS: usize = (1 << 30) - 1;
 
-/// A neighbour in a plane: its number in all of them.
+/// A neighbor in a plane: its number in all of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat(u32);
 
@@ -52,12 +52,12 @@ impl Radial {
     }
 }
 
-/// The neighbours of a site when it was inserted, turned so that the rays between them begin in the upper half-plane.
+/// The neighbors of a site when it was inserted, turned so that the rays between them begin in the upper half-plane.
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
     start: u32,
     count: u32,
-    /// How many rays are in the upper half-plane: the ray k is between the neighbours k and k + 1.
+    /// How many rays are in the upper half-plane: the ray k is between the neighbors k and k + 1.
     upper: u32,
 }
 
@@ -67,14 +67,14 @@ impl Plane {
     }
 }
 
-/// The data of a seat beside the neighbour.
+/// The data of a seat beside the neighbor.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     /// Whose plane it is.
     site: Place,
-    /// The corner across the edge from the neighbour to the following one.
+    /// The corner across the edge from the neighbor to the following one.
     beyond: Place,
-    /// For each triangle its Delaunay edge as long as it is present; then the seat at which the neighbour in whose cell it
+    /// For each triangle its Delaunay edge as long as it is present; then the seat at which the neighbor in whose cell it
     /// is sits in the plane of the site that destroyed it. Whoever remembers the triangles of edges knows which.
     links: [u32; KINDS],
 }
@@ -84,13 +84,13 @@ struct Row {
 pub(super) struct Planes {
     /// For each site its plane.
     ranges: Vec<Plane>,
-    /// Of all planes the neighbours, counter-clockwise around the site.
+    /// Of all planes the neighbors, counter-clockwise around the site.
     neighbors: Vec<Place>,
     rows: Vec<Row>,
 }
 
 impl Planes {
-    /// The number of neighbours in all planes.
+    /// The number of neighbors in all planes.
     pub(super) fn seats(&self) -> usize {
         self.neighbors.len()
     }
@@ -214,7 +214,7 @@ impl Planes {
     }
 }
 
-/// Whether the ray from `o` to the circumcentre of the triangle `o`, `a`, `b` points up, or to the right.
+/// Whether the ray from `o` to the circumcenter of the triangle `o`, `a`, `b` points up, or to the right.
 fn is_upper(points: &[[f64; 2]], [o, a, b]: [Place; 3]) -> bool {
     let point = |v: Place| points[v.index()];
     let [x, y] = if b.is_ghost() {
@@ -222,7 +222,7 @@ fn is_upper(points: &[[f64; 2]], [o, a, b]: [Place; 3]) -> bool {
     } else if a.is_ghost() {
         outward(point(o), point(b))
     } else {
-        centre_direction(point(o), point(a), point(b))
+        center_direction(point(o), point(a), point(b))
     };
     y.is_positive() || (y.is_zero() && x.is_positive())
 }
@@ -231,13 +231,13 @@ fn is_upper(points: &[[f64; 2]], [o, a, b]: [Place; 3]) -> bool {
 fn is_from<T: Tally>(points: &[[f64; 2]], [o, a, b]: [Place; 3], q: [f64; 2], tally: &mut T) -> bool {
     let point = |v: Place| points[v.index()];
     tally.orientation();
-    // The centre of a ghost is far away, square to its hull edge.
+    // The center of a ghost is far away, square to its hull edge.
     if b.is_ghost() {
         !angle(point(o), point(a), q).is_positive()
     } else if a.is_ghost() {
         !angle(point(o), point(b), q).is_negative()
     } else {
-        !centre_side(point(o), point(a), point(b), q).is_negative()
+        !center_side(point(o), point(a), point(b), q).is_negative()
     }
 }
 

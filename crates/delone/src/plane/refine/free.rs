@@ -34,8 +34,8 @@ impl Mesher<'_> {
             return;
         }
         let reach = if is_for_size { f64::INFINITY } else { self.rules.reach };
-        let centre = shape.centre(reach);
-        let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };
+        let center = shape.center(reach);
+        let q = if center.iter().all(|x| x.is_finite()) { center } else { shape.center(self.rules.reach) };
         match self.walk(shape.shortest, q) {
             Met::Triangle(t) => self.place(task, q, t, false),
             Met::Constraint(e) => self.split_first(task, &[e], false),
@@ -113,7 +113,7 @@ impl Mesher<'_> {
                 if is_last { is_flat(q, ends) } else { self.is_too_near(q, ends) }
             })
             .collect();
-        // Rounded, a point may be outside of the circle that it is to be the centre of; it would mend nothing.
+        // Rounded, a point may be outside of the circle that it is to be the center of; it would mend nothing.
         let mends = mesh.is_marked(task.edge.triangle());
         self.layer.cavity = cavity;
         let (nearest, square) = self.nearest(q);

@@ -1,8 +1,8 @@
 //! The state of a refinement, and its loop: the first task, until there is none.
 //!
 //! *It always ends.* Every vertex has a scale: of an input vertex the distance to the nearest that it sees; of a new one the
-//! scale of its nearest neighbour or of the vertices that made it necessary, or its distance from an input vertex or from the other
-//! side of a small input angle, or the size that is wanted there, where that is less. A vertex nearer to its nearest neighbour than
+//! scale of its nearest neighbor or of the vertices that made it necessary, or its distance from an input vertex or from the other
+//! side of a small input angle, or the size that is wanted there, where that is less. A vertex nearer to its nearest neighbor than
 //! 1/64 of that one's scale is refused. So scales come from a finite set, and what is accepted keeps a distance: inside of a
 //! triangle of the first triangulation all vertices see each other, hence there are finitely many. Vertices are removed only where
 //! a constraint is split, and there are finitely many of these splits.

@@ -1,6 +1,6 @@
 //! Refinement: new vertices until all triangles are as they are to be, or a reason is known why one is not.
 //!
-//! Delaunay refinement puts a new vertex into the circumcentre of a bad triangle, or nearer to its shortest edge (`shape`); where
+//! Delaunay refinement puts a new vertex into the circumcenter of a bad triangle, or nearer to its shortest edge (`shape`); where
 //! a constraint is in the way that is split instead (`split`). What is bad is in a queue whose order is one of geometry
 //! (`queue`), so the mesh is a function of the input.
 //!

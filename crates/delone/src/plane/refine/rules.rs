@@ -10,7 +10,7 @@ use crate::plane::constrained::Before;
 
 /// A lens around constraints is at least as wide as for this angle, in degrees.
 const NARROWEST: f64 = 20.0;
-/// Off-centres are this part of the way: what is made passes with room to spare (Shewchuk's choice).
+/// Off-centers are this part of the way: what is made passes with room to spare (Shewchuk's choice).
 const SHORT: f64 = 0.95;
 
 /// The default limit of new vertices that serve angles, where the caller sets none: a gap as narrow as a rounding error would take
@@ -26,7 +26,7 @@ pub(super) struct Rules<'a> {
     pub(super) squared_cosine: f64,
     /// A point sees a constraint under an obtuse angle of at least this squared cosine: it is too near.
     pub(super) lens: f64,
-    /// Off-centres are at most so many times the length of the shortest edge from its middle.
+    /// Off-centers are at most so many times the length of the shortest edge from its middle.
     pub(super) reach: f64,
     pub(super) conforming: bool,
     /// The square of the longest constraint.

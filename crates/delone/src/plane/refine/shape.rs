@@ -3,7 +3,7 @@
 //! Numbers here are rounded, and decide nothing about topology. Where an angle is judged the bound of all roundings is on the
 //! side of refining: an angle that is called good is at least the bound.
 //!
-//! Sources: Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993 (circumcentres); Üngör, "Off-centers: a new
+//! Sources: Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993 (circumcenters); Üngör, "Off-centers: a new
 //! type of Steiner points for computing size-optimal quality-guaranteed Delaunay triangulations", LATIN 2004.
 
 use std::ops::Range;
@@ -112,18 +112,18 @@ impl Shape {
         [0, 1].map(|k| a[k] + ((b[k] - a[k]) + (c[k] - a[k])) / 3.0)
     }
 
-    /// Where a new vertex is best: the circumcentre, or a point on the bisector of the shortest edge, as many times its length
+    /// Where a new vertex is best: the circumcenter, or a point on the bisector of the shortest edge, as many times its length
     /// from its middle, if that is nearer.
     #[inline]
-    pub(super) fn centre(&self, reach: f64) -> [f64; 2] {
+    pub(super) fn center(&self, reach: f64) -> [f64; 2] {
         let [a, b, c] = self.points;
         let (d, f) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
         let scale = 0.5 / (d[0] * f[1] - d[1] * f[0]);
         let (dd, ff) = (self.squares[0], self.squares[2]);
-        let centre = [(f[1] * dd - d[1] * ff) * scale, (d[0] * ff - f[0] * dd) * scale];
+        let center = [(f[1] * dd - d[1] * ff) * scale, (d[0] * ff - f[0] * dd) * scale];
         let off = [0.5 * d[0] - reach * d[1], 0.5 * d[1] + reach * d[0]];
         let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
-        let step = if square(centre) <= square(off) { centre } else { off };
+        let step = if square(center) <= square(off) { center } else { off };
         [a[0] + step[0], a[1] + step[1]]
     }
 }

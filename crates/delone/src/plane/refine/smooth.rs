@@ -1,6 +1,6 @@
 //! Smoothing: free new vertices move towards where their triangles are best.
 //!
-//! The goal is the mean of the circumcentres around a vertex, by area: the optimum for the triangles that there are (Chen & Xu,
+//! The goal is the mean of the circumcenters around a vertex, by area: the optimum for the triangles that there are (Chen & Xu,
 //! "Optimal Delaunay triangulations", J. Comput. Math. 2004). A vertex goes there, or half of the way, if its star stays strictly
 //! positive, which is decided exactly, its smallest angles grow in the mean, none falls below what was asked for or was there before,
 //! and nothing becomes too large or too near to a constraint; then edges are flipped until all is constrained Delaunay again, which
@@ -8,7 +8,7 @@
 //!
 //! Cost: O(1) for each vertex and round, as long as degrees are.
 
-use delone_predicates::{circumcentre, lexicographic, orient2d};
+use delone_predicates::{circumcenter, lexicographic, orient2d};
 
 use super::mesher::Mesher;
 use super::shape::Shape;
@@ -50,14 +50,14 @@ impl Mesher<'_> {
         }
     }
 
-    /// The mean of the circumcentres of a star, by area.
+    /// The mean of the circumcenters of a star, by area.
     fn goal(&self, star: &[EdgeId]) -> Option<[f64; 2]> {
         let (mut sum, mut areas) = ([0.0; 2], 0.0);
         for e in star {
             let shape = Shape::of(self.layer, e.triangle())?;
             let [a, b, c] = shape.points;
-            let (centre, area) = (circumcentre(a, b, c)?, shape.area());
-            sum = [0, 1].map(|k| sum[k] + area * centre[k]);
+            let (center, area) = (circumcenter(a, b, c)?, shape.area());
+            sum = [0, 1].map(|k| sum[k] + area * center[k]);
             areas += area;
         }
         Some(sum.map(|x| x / areas)).filter(|goal| goal.iter().all(|x| x.is_finite()))

@@ -310,7 +310,7 @@ fn shell(length: f64) -> f64 {
     if length < 1.5 * power { 0.5 * power } else { power }
 }
 
-/// The neighbours of a point among the numbers, in lexicographic order.
+/// The neighbors of a point among the numbers, in lexicographic order.
 #[cold]
 fn around(q: [f64; 2]) -> Vec<[f64; 2]> {
     let near = |x: f64| [x.next_down(), x, x.next_up()];

@@ -147,8 +147,8 @@ impl Cut<'_> {
         ring
     }
 
-    /// Whether four sites on one circle have their centre at a corner on the line. Its edge on the line is a point then, and
-    /// is made nonetheless: so the corner is the centre of the triangles that neighbours have it from.
+    /// Whether four sites on one circle have their center at a corner on the line. Its edge on the line is a point then, and
+    /// is made nonetheless: so the corner is the center of the triangles that neighbors have it from.
     fn is_vertex(&self, i: usize) -> bool {
         let lines = [self.ring[i].line, self.ring[self.before(i)].line, self.half];
         lines.iter().all(|line| matches!(line, Line::Bisector(..) | Line::Radical(..)))
@@ -203,10 +203,10 @@ mod tests {
     fn sides_have_the_polygon_on_their_left() {
         let kite = [[3.0, 0.0], [5.0, 1.0], [5.0, 4.0], [2.0, 4.0], [2.0, 1.0]];
         for (corners, aslant) in [(SQUARE.as_slice(), 0), (&kite, 2)] {
-            let centre = [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
+            let center = [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
             let ring = sides(corners, 10);
             assert!(
-                ring.iter().all(|corner| corner.line.side(&Spot::Point(centre)).is_positive()),
+                ring.iter().all(|corner| corner.line.side(&Spot::Point(center)).is_positive()),
                 "{ring:?}"
             );
             assert!(ring.iter().enumerate().all(|(i, corner)| corner.side == Some(10 + i)));

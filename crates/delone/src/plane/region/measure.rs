@@ -1,4 +1,4 @@
-//! Areas and centres of mass of rings of corners.
+//! Areas and centers of mass of rings of corners.
 //!
 //! Cost: O(k) for k corners.
 
@@ -42,7 +42,7 @@ fn twice_area(mut ring: impl Iterator<Item = [f64; 2]>, scale: f64) -> f64 {
     sum
 }
 
-/// The centre of mass. `None` if there is no area.
+/// The center of mass. `None` if there is no area.
 pub(in crate::plane) fn centroid<R: Iterator<Item = [f64; 2]> + Clone>(
     rings: impl Iterator<Item = R> + Clone,
 ) -> Option<[f64; 2]> {
@@ -82,7 +82,7 @@ pub(in crate::plane) fn centroid<R: Iterator<Item = [f64; 2]> + Clone>(
     if area.is_nan() || area <= 0.0 {
         return None;
     }
-    // A sliver has an area of roundings: its centre is among its corners all the same.
+    // A sliver has an area of roundings: its center is among its corners all the same.
     let centroid = [x + sum[0] / (3.0 * area) / scale[0], y + sum[1] / (3.0 * area) / scale[1]];
     let [low, high] = corners().fold([[x, y]; 2], |[low, high], p| {
         [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
@@ -119,7 +119,7 @@ mod tests {
 
     /// Of a triangle the mean of its corners, whatever the units of the two axes and whichever corner is first.
     #[test]
-    fn centres_do_not_depend_on_the_units() {
+    fn centers_do_not_depend_on_the_units() {
         let corners = [[0.0, 0.0], [3.0, 0.0], [-1.5, 6.0]];
         for (i, j) in [-1000, -600, -300, 0, 300, 600, 1000]
             .into_iter()
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_area_has_no_centre() {
+    fn what_has_no_area_has_no_center() {
         let flat: [&[[f64; 2]]; 5] = [
             &[],
             &[[1.0, 2.0]],

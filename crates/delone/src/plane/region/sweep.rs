@@ -1,7 +1,7 @@
 //! Whether rings are borders of a polygon, and how they lie in each other: one sweep over their corners.
 //!
 //! A line moves over the plane from left to right and knows the sides that it crosses, from below to above. Sides
-//! that share more than corners of both are neighbours on the line before it gets there, and neighbours are compared.
+//! that share more than corners of both are neighbors on the line before it gets there, and neighbors are compared.
 //! Where a ring begins, what is directly below tells what it is in.
 //!
 //! Source: Shamos & Hoey, "Geometric intersection problems", FOCS 1976. Corners with one x are swept from below, as if the
@@ -172,7 +172,7 @@ impl Sweep<'_> {
     }
 }
 
-/// Whether neighbours on the line are apart but for corners.
+/// Whether neighbors on the line are apart but for corners.
 fn compare(below: Option<Side>, above: Option<Side>) -> Result<(), Error> {
     match below.zip(above) {
         Some((p, q)) if are_in_conflict([p.low, p.high], [q.low, q.high]) => {
@@ -229,7 +229,7 @@ mod tests {
         let mut rings = vec![square(-1.0, -1.0, 40.0)];
         for i in 0..12 {
             for j in 0..12 {
-                // Three in each other, which touch their neighbours at corners where sizes agree.
+                // Three in each other, which touch their neighbors at corners where sizes agree.
                 let (x, y) = (f64::from(i) * 3.0, f64::from(j) * 3.0);
                 let size = if (i + j) % 2 == 0 { 3.0 } else { 2.5 };
                 let moved = if (i + j) % 2 == 0 { 0.0 } else { 0.25 };

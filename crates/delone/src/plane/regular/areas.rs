@@ -82,7 +82,7 @@ impl Regular2 {
         if let Some(site) = now.areas.iter().position(|&area| area <= 0.0) {
             return Err(Error::NoCell { site });
         }
-        // All sums are in this order, which depends on the points alone; and neighbours in the plane are neighbours in memory.
+        // All sums are in this order, which depends on the points alone; and neighbors in the plane are neighbors in memory.
         let mut order: Vec<usize> = (0..points.len()).collect();
         sorting::by_key(&mut order, |&i| r.mesh().place(VertexId::new(i)));
         let mut rank = vec![0_u32; points.len()];

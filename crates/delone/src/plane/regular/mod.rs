@@ -225,7 +225,7 @@ impl Regular2 {
                 corners.unwrap_or(Place::new(0))
             }
         };
-        // Along edges downhill: a vertex that no neighbour has less power than is the lowest of a convex hull.
+        // Along edges downhill: a vertex that no neighbor has less power than is the lowest of a convex hull.
         let site = |p: Place| self.base.site(p);
         let less = |a: Place, b: Place| {
             let order = compare_powers(q, site(a), site(b));

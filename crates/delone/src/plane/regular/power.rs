@@ -8,7 +8,7 @@
 //! & Aronov, "Minkowski-type theorems and least-squares clustering", Algorithmica 1998; Kitagawa, Mérigot & Thibert, "Convergence of a
 //! Newton algorithm for semi-discrete optimal transport", JEMS 2019, for the Jacobian.
 //!
-//! Cost: O(n) for the cells inside of the region, O(d (d + s)) for a cell with d neighbours where s sides of it are near.
+//! Cost: O(n) for the cells inside of the region, O(d (d + s)) for a cell with d neighbors where s sides of it are near.
 
 use delone_predicates::Line;
 
@@ -19,7 +19,7 @@ use crate::plane::region::clip;
 use crate::plane::region::tree::Relation;
 use crate::plane::region::{Region2, enlarged};
 use crate::plane::voronoi::cells::Cells2;
-use crate::plane::voronoi::centres::Centres;
+use crate::plane::voronoi::centers::Centers;
 use crate::plane::voronoi::clip::{Cellular, cut_out};
 use crate::points::Bounds;
 use crate::sorting;
@@ -78,7 +78,7 @@ impl<'a> Power2<'a> {
             return None;
         }
         let [a, b, c] = corners.map(|p| layer.site(p));
-        Power::centre(a, b, c)
+        Power::center(a, b, c)
     }
 
     /// Clips all cells to a region. Sites may be outside of it, and of their cells. The clipped cells tile the region.
@@ -92,7 +92,7 @@ impl<'a> Power2<'a> {
         let layer = &r.base;
         let cells = self.clip(region);
         let areas = (0..r.ids_given()).map(|i| cells.area(VertexId::new(i))).collect();
-        let centres = Centres::of(layer, None).points;
+        let centers = Centers::of(layer, None).points;
         let mut derivatives = Vec::new();
         for place in layer.mesh.inhabited().filter(|_| layer.mesh.lone.is_none()) {
             let v = layer.mesh.name(place);
@@ -102,7 +102,7 @@ impl<'a> Power2<'a> {
                 if w.is_ghost() || layer.mesh.name(w) < v {
                     continue;
                 }
-                let length = self.border(e, &centres, region).unwrap_or_else(|| {
+                let length = self.border(e, &centers, region).unwrap_or_else(|| {
                     let line = Power::border(layer.site(place), layer.site(w));
                     let of_cell = borders.get_or_insert_with(|| clipped_borders(r, region, place));
                     of_cell.iter().filter(|(on, _)| *on == line).map(|(_, length)| length).sum()
@@ -119,10 +119,10 @@ impl<'a> Power2<'a> {
     }
 
     /// The length of the border that is dual to an edge, if it is surely inside of the region.
-    fn border(self, e: EdgeId, centres: &[[f64; 2]], region: &Region2) -> Option<f64> {
+    fn border(self, e: EdgeId, centers: &[[f64; 2]], region: &Region2) -> Option<f64> {
         let layer = &self.triangulation.base;
         let triangles = [e, layer.mesh.twin(e)].map(EdgeId::triangle);
-        let [p, q] = triangles.map(|t| centres[t.index()]);
+        let [p, q] = triangles.map(|t| centers[t.index()]);
         let Bounds { low, high } = Bounds::of([p, q]);
         let [low, high] = enlarged(low, high)?;
         (region.relation(low, high) == Relation::Inside).then(|| (q[0] - p[0]).hypot(q[1] - p[1]))

@@ -150,7 +150,7 @@ impl Regular2 {
         }
     }
 
-    /// Takes a vertex with three neighbours out. Its site keeps a place.
+    /// Takes a vertex with three neighbors out. Its site keeps a place.
     fn hide(&mut self, u: Place) -> (VertexId, Place) {
         let v = self.mesh().name(u);
         self.base.mesh.names().release(v);

@@ -2,7 +2,7 @@
 //!
 //! Source: Edelsbrunner & Shah, "Incremental topological flipping works for regular triangulations", Algorithmica 1996, for
 //! the cavity of a site; it is dug as without weights, and the vertices inside of it are hidden. Sites on one line have a
-//! regular triangulation of their own: a chain, from which the neighbours of a new one go as long as it hides them.
+//! regular triangulation of their own: a chain, from which the neighbors of a new one go as long as it hides them.
 //!
 //! Cost: that of the cavity, and O(1) for each site that is hidden.
 
@@ -68,7 +68,7 @@ impl Layer<Power> {
         Settled::Vertex
     }
 
-    /// Takes the neighbours of a vertex away that it hides, while all are on one line.
+    /// Takes the neighbors of a vertex away that it hides, while all are on one line.
     fn hide_along(&mut self, v: Place, hidden: &mut Vec<Place>) {
         while let Some(w) = self.hidden_neighbor(v) {
             self.leave_line(w);

@@ -19,8 +19,8 @@ use crate::points::Bounds;
 pub(in crate::plane) struct Builder<'a> {
     region: &'a Region2,
     cells: Cells2,
-    /// How many vertices there were at the beginning: centres of triangles or circles.
-    centres: usize,
+    /// How many vertices there were at the beginning: centers of triangles or circles.
+    centers: usize,
     /// Corners on the border of the region.
     border: Vec<[f64; 2]>,
     /// Rings that are no borders.
@@ -49,10 +49,10 @@ impl<'a> Builder<'a> {
     ) -> Self {
         let mut starts = Vec::with_capacity(room + 1);
         starts.push(0);
-        let centres = vertices.len();
+        let centers = vertices.len();
         let cells =
             Cells2 { sites: vec![[0, 0]; ids], starts, corners: Vec::with_capacity(6 * room), vertices };
-        Self { region, cells, centres, border: Vec::new(), bad: Vec::new(), exact: Vec::new() }
+        Self { region, cells, centers, border: Vec::new(), bad: Vec::new(), exact: Vec::new() }
     }
 
     /// The cells so far.
@@ -71,15 +71,15 @@ impl<'a> Builder<'a> {
     pub(super) fn forget(&mut self) {
         self.cells.starts.truncate(1);
         self.cells.corners.clear();
-        self.cells.vertices.truncate(self.centres);
+        self.cells.vertices.truncate(self.centers);
         self.border.clear();
         self.bad.truncate(1);
     }
 
     /// The corners that there were at the beginning.
-    pub(super) fn into_centres(self) -> Vec<[f64; 2]> {
+    pub(super) fn into_centers(self) -> Vec<[f64; 2]> {
         let mut vertices = self.cells.vertices;
-        vertices.truncate(self.centres);
+        vertices.truncate(self.centers);
         vertices
     }
 

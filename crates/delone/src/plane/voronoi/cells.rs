@@ -1,11 +1,11 @@
-//! Clipped cells: rings of corners that neighbouring cells share.
+//! Clipped cells: rings of corners that neighboring cells share.
 //!
 //! Cost: O(k) for what is asked of a cell with k corners.
 
 use crate::ids::VertexId;
 use crate::plane::region::measure;
 
-/// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Neighbouring cells
+/// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Neighboring cells
 /// share the vertices between them.
 #[derive(Clone, Debug, Default)]
 pub struct Cells2 {
@@ -15,7 +15,7 @@ pub struct Cells2 {
     pub(super) starts: Vec<u32>,
     /// Indices of vertices, ring by ring.
     pub(super) corners: Vec<u32>,
-    /// First the circumcentres by triangle, then what clipping has made.
+    /// First the circumcenters by triangle, then what clipping has made.
     pub(super) vertices: Vec<[f64; 2]>,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Cell2<'a> {
         measure::second_moment(self.rings().map(Ring::points), about)
     }
 
-    /// The centre of mass. `None` if the cell is empty, or so small that its rounded corners have no area.
+    /// The center of mass. `None` if the cell is empty, or so small that its rounded corners have no area.
     pub fn centroid(self) -> Option<[f64; 2]> {
         measure::centroid(self.rings().map(Ring::points))
     }

@@ -1,20 +1,20 @@
 //! All cells of a diagram, clipped to a region.
 //!
-//! Most cells lie inside of the region or outside, and their corners are circumcentres, each computed once. The others are
-//! cut out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
+//! Most cells lie inside of the region or outside, and their corners are circumcenters, each computed once. The others are
+//! cut out of the region: from the box around it by the bisectors with all neighbors, which needs no rays and no
 //! corners far away; then, if the region is no box, from the part of it that is near.
 //!
-//! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
+//! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbors where s sides of the region are near.
 
 use super::Voronoi2;
 use super::build::Builder;
 use super::cells::{Cell2, Cells2};
-use super::centres::Centres;
+use super::centers::Centers;
 use crate::plane::region::Region2;
 use std::cmp::Ordering::{Greater, Less};
 
 use crate::plane::region::clip::{self, Corner, clip};
-use delone_predicates::{Line, Sign, Spot, circumcentre, power_centre};
+use delone_predicates::{Line, Sign, Spot, circumcenter, power_center};
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::plane::layer::Layer;
@@ -37,7 +37,7 @@ impl Voronoi2<'_> {
     }
 
     /// Clips all cells to a region, and hands out one after the other. They come in the order of the plane, not of the ids, and nothing is
-    /// kept of them: beside the circumcentres this takes no memory.
+    /// kept of them: beside the circumcenters this takes no memory.
     ///
     /// ```
     /// use delone::{Delaunay2, Region2};
@@ -59,7 +59,7 @@ pub(in crate::plane) trait Cellular: Kernel {
     fn border(a: Site<Self>, b: Site<Self>) -> Line;
 
     /// The corner of the cells of three sites.
-    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]>;
+    fn center(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]>;
 }
 
 impl Cellular for NearestSites {
@@ -69,8 +69,8 @@ impl Cellular for NearestSites {
     }
 
     #[inline]
-    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
-        circumcentre(a.0, b.0, c.0)
+    fn center(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        circumcenter(a.0, b.0, c.0)
     }
 }
 
@@ -79,8 +79,8 @@ impl Cellular for Power {
         Line::Radical(a, b)
     }
 
-    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
-        power_centre(a, b, c)
+    fn center(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        power_center(a, b, c)
     }
 }
 
@@ -123,7 +123,7 @@ fn clip_all<K: Cellular>(
 
 /// Asks memory for what the stars of the triangles to come are made of.
 #[inline]
-fn ask_ahead<K: Cellular>(layer: &Layer<K>, centres: &[[f64; 2]], t: TriangleId) {
+fn ask_ahead<K: Cellular>(layer: &Layer<K>, centers: &[[f64; 2]], t: TriangleId) {
     let mesh = &layer.mesh;
     // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
     for record in mesh.edges.get(4 * (t.index() + 2 * PREFETCH_DISTANCE)..).into_iter().flatten().take(3) {
@@ -131,11 +131,11 @@ fn ask_ahead<K: Cellular>(layer: &Layer<K>, centres: &[[f64; 2]], t: TriangleId)
     }
     let next = mesh.edges.get(4 * (t.index() + PREFETCH_DISTANCE)..).into_iter().flatten().take(3);
     for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
-        prefetch(centres, record.twin.triangle().index());
+        prefetch(centers, record.twin.triangle().index());
         for beyond in [record.twin.next(), record.twin.previous()] {
             if let Some(record) = mesh.edges.get(beyond.index()) {
                 prefetch(&mesh.edges, record.twin.index());
-                prefetch(centres, record.twin.triangle().index());
+                prefetch(centers, record.twin.triangle().index());
             }
         }
     }
@@ -149,7 +149,7 @@ impl Cells2 {
         region: &Region2,
         mut progress: impl FnMut(usize),
     ) -> Self {
-        let Centres { points, inside } = Centres::of(layer, region.as_box());
+        let Centers { points, inside } = Centers::of(layer, region.as_box());
         let mut builder = Builder::new(region, ids, layer.mesh.vertex_count(), points);
         let mut done = 0;
         clip_all(layer, &inside, &mut builder, &mut |builder, site, first| {
@@ -169,7 +169,7 @@ impl Cells2 {
         region: &Region2,
         mut each: impl FnMut(VertexId, Cell2<'_>),
     ) {
-        let Centres { points, inside } = Centres::of(layer, region.as_box());
+        let Centers { points, inside } = Centers::of(layer, region.as_box());
         let mut builder = Builder::new(region, 0, 0, points);
         clip_all(layer, &inside, &mut builder, &mut |builder, _, _| builder.forget());
         if builder.is_good() {
@@ -180,7 +180,7 @@ impl Cells2 {
             return;
         }
         let count = layer.mesh.vertex_count();
-        let mut builder = Builder::new(region, count, count, builder.into_centres());
+        let mut builder = Builder::new(region, count, count, builder.into_centers());
         let mut sites = Vec::with_capacity(count);
         clip_all(layer, &inside, &mut builder, &mut |builder, site, first| {
             builder.assign(sites.len(), first);

@@ -481,7 +481,7 @@ mod tests {
         Region2::rectangle([0.0, 0.0], [2.0, 2.0]).expect("a rectangle")
     }
 
-    /// A cell of some ulps that is turned over becomes a side of its neighbours.
+    /// A cell of some ulps that is turned over becomes a side of its neighbors.
     #[test]
     fn cells_of_a_rounding_become_a_side() {
         let e = f64::EPSILON;

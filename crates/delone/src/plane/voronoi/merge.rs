@@ -20,7 +20,7 @@ const CORNER: u8 = 0;
 const BORDER: u8 = 1;
 const INSIDE: u8 = 2;
 
-/// Where cells are as small as the length, rings go bad beside those that stay, round after round. After so many rounds their neighbours
+/// Where cells are as small as the length, rings go bad beside those that stay, round after round. After so many rounds their neighbors
 /// stay too, more of them each time, and after the last everything.
 const ALONE: usize = 4;
 const ROUNDS: usize = 12;

@@ -1,7 +1,7 @@
 //! Voronoi diagrams, as a view of the triangulation.
 //!
 //! The cell of a site is what is at least as near to it as to every other vertex. Cells are dual to vertices, Voronoi
-//! edges to Delaunay edges, Voronoi vertices (circumcentres) to triangles, so the diagram takes no memory and is always that of the
+//! edges to Delaunay edges, Voronoi vertices (circumcenters) to triangles, so the diagram takes no memory and is always that of the
 //! triangulation as it is: after insertions, removals and motions too.
 //!
 //! A cell inside of its region is a list of circumcenters; any other cell is cut out of the region by bisectors (`clip`). Until the end,
@@ -9,13 +9,13 @@
 //! keeps order, so a short side may vanish but seldom turns over. Each ring is tested for simplicity (`region/rings.rs`); where one
 //! fails, corners that nearly coincide become one in all cells (`contract`).
 //!
-//! Combinatorics are exact. Coordinates are correctly rounded: see [`delone_predicates::circumcentre`].
+//! Combinatorics are exact. Coordinates are correctly rounded: see [`delone_predicates::circumcenter`].
 //!
-//! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
+//! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbors.
 
 pub(in crate::plane) mod build;
 pub(in crate::plane) mod cells;
-pub(in crate::plane) mod centres;
+pub(in crate::plane) mod centers;
 pub(in crate::plane) mod clip;
 mod contract;
 mod merge;
@@ -37,14 +37,14 @@ use crate::ids::{EdgeId, TriangleId, VertexId};
 ///
 /// let d = Delaunay2::from_points(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0], [0.0, -2.0]])?;
 /// let voronoi = d.voronoi();
-/// let centre = d.vertices().next().unwrap();
-/// assert!(voronoi.is_bounded(centre));
-/// assert_eq!(voronoi.corners(centre).count(), 4);
+/// let center = d.vertices().next().unwrap();
+/// assert!(voronoi.is_bounded(center));
+/// assert_eq!(voronoi.corners(center).count(), 4);
 /// let rays = voronoi.edges().filter(|e| matches!(e, VoronoiEdge2::Ray { .. })).count();
 /// assert_eq!(rays, 4);
 ///
 /// let cells = voronoi.clip(&Region2::rectangle([-2.0, -2.0], [2.0, 2.0])?);
-/// assert_eq!(cells.area(centre), 4.0);
+/// assert_eq!(cells.area(center), 4.0);
 /// assert_eq!(d.vertices().map(|v| cells.area(v)).sum::<f64>(), 16.0);
 /// # Ok::<(), delone::Error>(())
 /// ```
@@ -56,7 +56,7 @@ pub struct Voronoi2<'a> {
 /// An edge of the diagram: the points as near to two sites as to any other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VoronoiEdge2 {
-    /// From the centre of the triangle on the left of the Delaunay edge to the one on its right.
+    /// From the center of the triangle on the left of the Delaunay edge to the one on its right.
     Segment([[f64; 2]; 2]),
     /// Unbounded on one side.
     Ray {
@@ -87,10 +87,10 @@ impl<'a> Voronoi2<'a> {
         self.triangulation
     }
 
-    /// The Voronoi vertex of a triangle: the centre of its circle. `None` for a ghost, and if it is too far away for
+    /// The Voronoi vertex of a triangle: the center of its circle. `None` for a ghost, and if it is too far away for
     /// `f64`.
     pub fn vertex(self, t: TriangleId) -> Option<[f64; 2]> {
-        self.triangulation.circumcentre(t)
+        self.triangulation.circumcenter(t)
     }
 
     /// The Voronoi vertices, one for each finite triangle, in the order of [`crate::Mesh2::triangles`]; those of

@@ -3,7 +3,7 @@
 //! Where rounding turned a ring over, corners move that cells share (`contract.rs`): along sides of some units in the last place, so no
 //! further than a chain of these leads. If no ring at the end of such a chain is bad, the cell is as it was cut.
 //!
-//! Cost: O(d^2) for a vertex with d neighbours that have as many; of all cells where one of those rings is bad.
+//! Cost: O(d^2) for a vertex with d neighbors that have as many; of all cells where one of those rings is bad.
 
 use super::Voronoi2;
 use super::build::Builder;
@@ -18,7 +18,7 @@ impl Voronoi2<'_> {
     /// The cell of one vertex, clipped to a region, as rings: with the corners that [`Self::clip`] gives it. Empty for an id that is
     /// no vertex.
     ///
-    /// O(d^2) for a vertex with d neighbours that have as many. All cells are clipped where rounding has turned a ring near by over,
+    /// O(d^2) for a vertex with d neighbors that have as many. All cells are clipped where rounding has turned a ring near by over,
     /// because then corners are moved that cells share.
     pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
@@ -41,7 +41,7 @@ impl Voronoi2<'_> {
     }
 }
 
-/// Whether the rings of a cell are good, those of its neighbours and of theirs, and of all around corners which short sides lead to.
+/// Whether the rings of a cell are good, those of its neighbors and of theirs, and of all around corners which short sides lead to.
 fn has_only_good<'a>(
     place: Place,
     corners: &[Point],

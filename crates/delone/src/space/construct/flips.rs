@@ -3,17 +3,17 @@
 //! A new site splits the tetrahedron that contains it into four, unless it is above that tetrahedron and hidden. Where a
 //! tetrahedron across from it is in conflict with it, a flip takes that one in: at one facet two tetrahedra give way to three
 //! around a new edge, at two facets three give way to two, and at three facets four to one, which hides their common corner.
-//! Where none of them is right yet, it waits for its neighbours. A tetrahedron that is gone points to those that took its
+//! Where none of them is right yet, it waits for its neighbors. A tetrahedron that is gone points to those that took its
 //! place, and a site is traced through all that contain it.
 //!
 //! Sources: the challenge at the end of §4.3 of Guibas, Knuth & Sharir, Algorithmica 1992; that it can be met: Joe, CAGD 1991,
 //! and with weights Edelsbrunner & Shah, "Incremental topological flipping works for regular triangulations", Algorithmica
-//! 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones beyond the hull seen from a centre inside
+//! 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones beyond the hull seen from a center inside
 //! of the first tetrahedron, infinitesimally near one of its corners, so that they are flipped as all others. Sites that span less
 //! than space have the scaffold of a layer beside them.
 //!
 //! The proof of Edelsbrunner & Shah needs general position. Heights have it by the perturbation of the conflict tests. Of points it
-//! is enough that the new one is in no plane through three others, or through two others and the centre; so while it is located
+//! is enough that the new one is in no plane through three others, or through two others and the center; so while it is located
 //! and inserted it is moved by a step that is too small to show anywhere else ([`orient3d_moved`]). Then some flip is always
 //! possible: lower the lifted site from far above, and of all tetrahedra that are in conflict with it and still there take the one
 //! whose hyperplane it passes first. What it passes before is gone, so exactly the facets that face the moved site are at new
@@ -128,7 +128,7 @@ struct Flips<'a, W> {
     points: &'a [[f64; 3]],
     weights: &'a [W],
     cells: Vec<Cell>,
-    /// The corners of the first tetrahedron. The centre is in its inside, infinitesimally near the first, much less so the edge to
+    /// The corners of the first tetrahedron. The center is in its inside, infinitesimally near the first, much less so the edge to
     /// the second, and so on.
     root: [[f64; 3]; 4],
     /// Tetrahedra at the new point, across from which is to be tested.
@@ -161,7 +161,7 @@ impl<'a, W: Lift> Flips<'a, W> {
     }
 
     /// Whether corners are in positive order if one of them, not at infinity, is at a point that is moved. One that is at infinity
-    /// is across the others from the centre.
+    /// is across the others from the center.
     fn is_positive(&self, mut corners: [u32; 4], k: usize, q: [f64; 3]) -> bool {
         corners.swap(k, 3);
         let mut is_odd = k < 3;
@@ -275,7 +275,7 @@ impl<'a, W: Lift> Flips<'a, W> {
                 return None;
             }
         }
-        // What waited has gone with a neighbour, which was tested when it came.
+        // What waited has gone with a neighbor, which was tested when it came.
         let is_done = !waiting.iter().any(|&t| self.cells[t as usize].is_present());
         debug_assert!(is_done, "a conflict is left, and no flip ends it");
         is_done.then_some(())

@@ -1,7 +1,7 @@
 //! Construction in bulk: biased randomized insertion order along a Hilbert curve, walks, cavities.
 //!
 //! Source: Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Points are kept in memory in the order of
-//! the curve, so neighbours in space are neighbours in memory.
+//! the curve, so neighbors in space are neighbors in memory.
 //!
 //! Large sets are cut in halves by coordinates (`cut`) and triangulated apart in slices of the final arrays (`part`). A tetrahedron
 //! stays if its sphere avoids the boxes of all other parts. The rest is a hole, filled with the triangulation of its vertices (`apart`).

@@ -7,7 +7,7 @@
 //! The new tetrahedra stand on the facets of the ball's border and are glued along its edges. Each border vertex gets a
 //! small number, and a table by pairs of numbers holds the facet above each directed edge; so nothing is searched. The
 //! numbers are found without marks: the slot where a vertex keeps its tetrahedron holds the number for the while. The
-//! edges of large borders (of the centre of a sphere's surface) are sorted instead.
+//! edges of large borders (of the center of a sphere's surface) are sorted instead.
 //!
 //! Cost: O(k) for k tetrahedra, about twenty on average over random insertions; nothing is allocated once the buffers
 //! have grown. Sorting: O(k log k).
@@ -180,7 +180,7 @@ impl Cavity {
         }
     }
 
-    /// Takes a tetrahedron into the cavity, and asks for its neighbours.
+    /// Takes a tetrahedron into the cavity, and asks for its neighbors.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "calls are a fortieth of all instructions of a construction")]
     fn enter<W>(&mut self, memory: &mut Memory<'_, W>, t: TetrahedronId) {

@@ -194,7 +194,7 @@ impl Regular3 {
         let near = self.base.near(self.start(q), q, Nearest::Corner, &mut ()).0;
         let mut best =
             if self.base.is_scaffold(near) { self.base.any_vertex().unwrap_or(near) } else { near };
-        // Along edges downhill: a vertex that no neighbour has less power than is the lowest of a convex hull.
+        // Along edges downhill: a vertex that no neighbor has less power than is the lowest of a convex hull.
         let less = |a: Place, b: Place| {
             let [a, b] = [a, b].map(|p| self.base.site(p));
             compare_powers(q, a, b).then_with(|| lexicographic3(a.0, b.0)).is_lt()

@@ -48,7 +48,7 @@ impl Levels {
         }
         let [first, last] = [((low - base) / interval).floor(), ((high - base) / interval).floor() + 1.0];
         let count = last - first + 1.0;
-        // Beyond 2^53 multiples cannot be told from their neighbours.
+        // Beyond 2^53 multiples cannot be told from their neighbors.
         if count.is_nan() || count > MAX_LEVELS || first.abs().max(last.abs()) > 9e15 {
             return refuse("the number of levels of contours", count, "at most 1,000,000");
         }

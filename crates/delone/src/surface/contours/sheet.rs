@@ -1,4 +1,4 @@
-//! Triangles as contours see them: corners and neighbours as numbers, with a border where a neighbour is left out.
+//! Triangles as contours see them: corners and neighbors as numbers, with a border where a neighbor is left out.
 //!
 //! Cost: O(t), 24 bytes a triangle.
 

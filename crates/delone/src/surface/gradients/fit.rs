@@ -9,10 +9,10 @@
 
 use super::super::real::{Double, Real, dot};
 
-/// One neighbour.
+/// One neighbor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
-    /// From the vertex to the neighbour, the longest coordinate between one and two.
+    /// From the vertex to the neighbor, the longest coordinate between one and two.
     pub(super) away: [Double; 3],
     /// The difference of values, in the unit of `away`.
     pub(super) rise: Double,

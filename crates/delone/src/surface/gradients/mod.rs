@@ -1,15 +1,15 @@
-//! Gradients at the vertices, from the values of their neighbours, for surfaces that are smooth at the vertices too.
+//! Gradients at the vertices, from the values of their neighbors, for surfaces that are smooth at the vertices too.
 //!
-//! Source: Sibson, "A brief description of natural neighbour interpolation", 1981. The gradient fits the differences to the neighbours best,
+//! Source: Sibson, "A brief description of natural neighbor interpolation", 1981. The gradient fits the differences to the neighbors best,
 //! each with its weight over the squared distance. The weights are those of Laplace, which the star of a vertex has without another
 //! triangulation: the weighted differences of points are zero in sum, so gradients of linear functions and of spheres come out as they are.
-//! On the hull all neighbours weigh the same. Cost: O(1) on average for each vertex.
+//! On the hull all neighbors weigh the same. Cost: O(1) on average for each vertex.
 //!
 //! A sliver makes weights as large as it is thin: along the hull of a turned lattice they are 1e15 beside others of one. Where that is
 //! so, weights and fit are computed in twice the precision, without forming the normal equations of the differences (`fit.rs`).
-//! Values are rounded, too, and a fit may multiply that: where the neighbours with weight are on a line, or in a plane, but for rounding, by
-//! 1e16. So each fit says by how much. Where it is too much all neighbours weigh the same, and where that is not enough, between slivers
-//! alone, the neighbours of neighbours take part (`wide.rs`).
+//! Values are rounded, too, and a fit may multiply that: where the neighbors with weight are on a line, or in a plane, but for rounding, by
+//! 1e16. So each fit says by how much. Where it is too much all neighbors weigh the same, and where that is not enough, between slivers
+//! alone, the neighbors of neighbors take part (`wide.rs`).
 
 mod fit;
 mod wide;
@@ -39,7 +39,7 @@ const SQUARES: std::ops::Range<f64> = 1.183_052_186_166_774_8e-271..8.452_712_49
 const SQUARES_IN_SPACE: std::ops::Range<f64> = 3.439_552_567_074_349_4e-136..2.907_354_897_182_427_6e135;
 
 /// The gradients at all vertices, by the index of the vertex: values per unit of length along each axis. Zero for ids that are no
-/// vertices, along directions in which there are no neighbours, and where a number would leave the range of `f64`.
+/// vertices, along directions in which there are no neighbors, and where a number would leave the range of `f64`.
 ///
 /// Linear functions are reproduced: a gradient is in error by at most 2^-36 of its length, and by at most 2^-32 m / s for values of size m,
 /// which are rounded, and points that are s apart or more. Where all points are close to one line or plane the second bound grows: as many
@@ -65,7 +65,7 @@ pub fn gradients<T: Surround>(d: &T, values: &[f64]) -> Result<Vec<T::Point>, Er
     Ok(parallel::map(parallel::ranges(values.len()), part).concat())
 }
 
-/// Neighbours with their weights, in the order of their points.
+/// Neighbors with their weights, in the order of their points.
 type Star<R = f64> = Vec<(VertexId, R)>;
 
 fn at<T: Surround>(d: &T, v: VertexId, values: &[f64], star: &mut Star) -> T::Point {
@@ -115,7 +115,7 @@ fn quick_slope<T: Surround>(
     (range.contains(&least) && range.contains(&most), slope.map(|slope| slope.map(|x| x * unit)))
 }
 
-/// The neighbours of a vertex, in the order of their points, with the weights of Laplace; with equal ones on the hull. What the weights are
+/// The neighbors of a vertex, in the order of their points, with the weights of Laplace; with equal ones on the hull. What the weights are
 /// made of is this large in sum, which is no number where weights are none. `place` says where a vertex is, from anywhere.
 fn weigh<T: Surround, R: Real>(
     d: &T,
@@ -191,7 +191,7 @@ fn solve(mut m: [[f64; 4]; 3], axes: usize, least: f64) -> Option<[f64; 3]> {
     solution.iter().all(|x| x.is_finite()).then_some(solution)
 }
 
-/// Fits in twice the precision, among slivers and near the ends of the range; `None` where neighbours span nothing.
+/// Fits in twice the precision, among slivers and near the ends of the range; `None` where neighbors span nothing.
 #[cold]
 fn careful<T: Surround>(d: &T, v: VertexId, values: &[f64]) -> Option<[f64; 3]> {
     let axes = T::Point::COUNT;

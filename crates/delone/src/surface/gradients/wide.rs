@@ -1,4 +1,4 @@
-//! Who takes part in a fit where the neighbours of a vertex do not tell enough: their neighbours too, and theirs, until there are many.
+//! Who takes part in a fit where the neighbors of a vertex do not tell enough: their neighbors too, and theirs, until there are many.
 //!
 //! Cost: O(1), for the stars of at most [`MOST_NEIGHBORS`] vertices.
 
@@ -7,18 +7,18 @@ use crate::around::Surround;
 use crate::ids::VertexId;
 use crate::sorting;
 
-/// A set of which so many neighbours tell nothing is thin as a whole.
+/// A set of which so many neighbors tell nothing is thin as a whole.
 const MOST_NEIGHBORS: usize = 128;
 
-/// The neighbours of a vertex, and theirs.
+/// The neighbors of a vertex, and theirs.
 pub(super) struct Wide {
     neighbors: Vec<VertexId>,
-    /// Whose neighbours are not among them yet.
+    /// Whose neighbors are not among them yet.
     ring: Vec<VertexId>,
 }
 
 impl Wide {
-    /// The neighbours alone.
+    /// The neighbors alone.
     pub(super) fn new(neighbors: Vec<VertexId>) -> Self {
         Self { ring: neighbors.clone(), neighbors }
     }
@@ -28,7 +28,7 @@ impl Wide {
         &self.neighbors
     }
 
-    /// Adds the neighbours of those around a vertex; whether there are any, and not too many before.
+    /// Adds the neighbors of those around a vertex; whether there are any, and not too many before.
     pub(super) fn widen<T: Surround>(&mut self, d: &T, v: VertexId) -> bool {
         if self.neighbors.len() > MOST_NEIGHBORS {
             return false;

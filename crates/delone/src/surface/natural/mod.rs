@@ -1,19 +1,19 @@
-//! How much of the cell of a new point is taken from each of its neighbours: the weights of natural neighbour interpolation.
+//! How much of the cell of a new point is taken from each of its neighbors: the weights of natural neighbor interpolation.
 //!
-//! Sources: Sibson, "A brief description of natural neighbour interpolation", 1981: the volume that the new cell takes from the cell of
-//! each neighbour. Belikov et al., "The non-Sibsonian interpolation", 1997: the size of the facet between both cells over the
+//! Sources: Sibson, "A brief description of natural neighbor interpolation", 1981: the volume that the new cell takes from the cell of
+//! each neighbor. Belikov et al., "The non-Sibsonian interpolation", 1997: the size of the facet between both cells over the
 //! distance, which are the weights of the discrete Laplace operator.
 //!
 //! Both come from one number for each edge of each simplex: what the simplex has of the Voronoi facet that is dual to the edge, over
-//! the length of the edge. It may be negative, as the circumcentre may be outside; sums over all simplices at an edge are not. The
+//! the length of the edge. It may be negative, as the circumcenter may be outside; sums over all simplices at an edge are not. The
 //! simplices of the cavity have what cells were, those at the new point what they will be, and the difference is what is taken. No
-//! circumcentre is computed in the plane, nothing depends on where the origin is, and what is computed is a rational function of
+//! circumcenter is computed in the plane, nothing depends on where the origin is, and what is computed is a rational function of
 //! differences.
 //!
-//! Who is a neighbour is exact. Weights are rounded: beside the sum goes a bound of its error, and where that is too large all is done
+//! Who is a neighbor is exact. Weights are rounded: beside the sum goes a bound of its error, and where that is too large all is done
 //! again in twice the precision; where even that cannot tell, weights are linear. They are not negative and their sum is one, whatever is rounded.
 //!
-//! Cost: O(k log k) for k neighbours; in the plane some two divisions for each.
+//! Cost: O(k log k) for k neighbors; in the plane some two divisions for each.
 
 mod plane;
 mod space;
@@ -26,7 +26,7 @@ use crate::ids::VertexId;
 use crate::powers::power_below;
 use crate::triangulation::{Coordinates, Triangulation};
 
-/// The measure of a neighbour.
+/// The measure of a neighbor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     /// The size of facets over the distance.
@@ -38,7 +38,7 @@ pub(super) enum Measure {
 /// Errors up to this part of the sum are taken for none: 2^-36.
 const GOOD: f64 = 1.455_191_522_836_685_2e-11;
 
-/// The neighbours of a point with their weights, in buffers that are kept.
+/// The neighbors of a point with their weights, in buffers that are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     plane: plane::Cell,
@@ -46,7 +46,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// The weights of the neighbours of a point, given what surrounds it; whether there are any, which simplices that are flat to twice
+    /// The weights of the neighbors of a point, given what surrounds it; whether there are any, which simplices that are flat to twice
     /// the precision and coordinates beyond the range of numbers prevent. Everything is put in an order that depends on the points alone,
     /// so that sums have the same bits whatever the triangulation was made of.
     pub(super) fn weigh<T: Triangulation>(

@@ -1,6 +1,6 @@
 //! The plane: an edge has of its dual, in a triangle, half of the cotangent of the angle opposite to it.
 //!
-//! Neighbours are numbered counter-clockwise from the lexicographically least one on, so that everything is summed in an order that
+//! Neighbors are numbered counter-clockwise from the lexicographically least one on, so that everything is summed in an order that
 //! depends on the points alone.
 
 use super::super::real::{Double, Real};
@@ -8,24 +8,24 @@ use super::{GOOD, Measure, apart, normalize, scale};
 use crate::around::Ring;
 use crate::ids::VertexId;
 
-/// The neighbours of a point, in buffers that are kept.
+/// The neighbors of a point, in buffers that are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
-    /// Which corner of the ring each neighbour is.
+    /// Which corner of the ring each neighbor is.
     order: Vec<u32>,
     /// The number of each corner of the ring.
     numbers: Vec<u32>,
     /// The triangles of the cavity, counter-clockwise from their least numbers on. They are in the order of their middle ones: between
-    /// the first and the last neighbour there is a triangle for each, which has it in the middle.
+    /// the first and the last neighbor there is a triangle for each, which has it in the middle.
     cavity: Vec<[u32; 3]>,
     plain: Local<f64>,
     double: Local<Double>,
 }
 
-/// Coordinates relative to the point, and what was summed for each neighbour.
+/// Coordinates relative to the point, and what was summed for each neighbor.
 #[derive(Clone, Debug, Default)]
 struct Local<R> {
-    /// The first neighbour once more at the end.
+    /// The first neighbor once more at the end.
     at: Vec<[R; 2]>,
     shares: Vec<R>,
     /// A bound of the errors of all sums, in units of the last place.
@@ -73,7 +73,7 @@ impl Cell {
         normalize(weights)
     }
 
-    /// Numbers neighbours; says how far the furthest is, about.
+    /// Numbers neighbors; says how far the furthest is, about.
     fn number(&mut self, ring: &Ring) -> f64 {
         let Self { order, numbers, .. } = self;
         let (mut start, mut least) = (0, [f64::INFINITY; 2]);
@@ -91,7 +91,7 @@ impl Cell {
         let mut size = 0.0f64;
         for (number, &i) in order.iter().enumerate() {
             numbers[i as usize] = number as u32;
-            let [x, y] = ring.corners_seen[i as usize].from_centre();
+            let [x, y] = ring.corners_seen[i as usize].from_center();
             size = size.max(x.abs()).max(y.abs());
         }
         size
@@ -151,7 +151,7 @@ impl<R: Real> Local<R> {
         }
     }
 
-    /// Adds what each triangle at the point, between two neighbours, has for both.
+    /// Adds what each triangle at the point, between two neighbors, has for both.
     #[inline]
     fn around(&mut self, of_edge: impl Fn([R; 2], [R; 2]) -> ([R; 2], f64)) {
         let Self { at, shares, doubt } = self;
@@ -189,7 +189,7 @@ impl<R: Real> Local<R> {
     }
 }
 
-/// The cotangents opposite to the sides at the point of a triangle between it and two neighbours, and a bound of their errors.
+/// The cotangents opposite to the sides at the point of a triangle between it and two neighbors, and a bound of their errors.
 #[inline]
 fn facets<R: Real>([ax, ay]: [R; 2], [bx, by]: [R; 2]) -> ([R; 2], f64) {
     let (dx, dy) = (bx - ax, by - ay);
@@ -201,7 +201,7 @@ fn facets<R: Real>([ax, ay]: [R; 2], [bx, by]: [R; 2]) -> ([R; 2], f64) {
     ([at_b * over, at_a * over], size * over.value().abs() * doubt(squares, over.value()))
 }
 
-/// The parts of the triangle between two neighbours and the point, to be subtracted, and a bound of their errors.
+/// The parts of the triangle between two neighbors and the point, to be subtracted, and a bound of their errors.
 #[inline]
 fn new_areas<R: Real>([ax, ay]: [R; 2], [bx, by]: [R; 2]) -> ([R; 2], f64) {
     let (dx, dy) = (bx - ax, by - ay);

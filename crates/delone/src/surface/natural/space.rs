@@ -1,5 +1,5 @@
-//! Space: an edge has of its dual, in a tetrahedron, the two right-angled triangles between the middle of the edge, the centres of the two
-//! facets at it, and the centre of the tetrahedron; with signs, where centres are outside.
+//! Space: an edge has of its dual, in a tetrahedron, the two right-angled triangles between the middle of the edge, the centers of the two
+//! facets at it, and the center of the tetrahedron; with signs, where centers are outside.
 
 use super::super::real::{Double, Real, cross, dot, minus};
 use super::{GOOD, Measure, apart, compare, normalize, scale, three};
@@ -7,7 +7,7 @@ use crate::around::Around;
 use crate::ids::VertexId;
 use crate::triangulation::Triangulation;
 
-/// The neighbours of a point by a small number each, in lexicographic order, and simplices between them.
+/// The neighbors of a point by a small number each, in lexicographic order, and simplices between them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     ids: Vec<VertexId>,
@@ -21,7 +21,7 @@ pub(super) struct Cell {
     double: Local<Double>,
 }
 
-/// Coordinates relative to the point, and what was summed for each neighbour.
+/// Coordinates relative to the point, and what was summed for each neighbor.
 #[derive(Clone, Debug, Default)]
 struct Local<R> {
     at: Vec<[R; 3]>,
@@ -93,7 +93,7 @@ impl Cell {
         normalize(weights)
     }
 
-    /// Numbers neighbours in lexicographic order, and sorts what is between them.
+    /// Numbers neighbors in lexicographic order, and sorts what is between them.
     fn take<T: Triangulation>(&mut self, d: &T, around: &Around<T>) {
         let Self { ids, points, by_id, cavity, border, .. } = self;
         around.neighbors(ids);
@@ -150,7 +150,7 @@ pub(super) fn duals<R: Real>(p: [[R; 3]; 4]) -> ([R; 6], f64) {
     let volume = dot(u, normals[0]);
     let twice = volume + volume;
     // Relative to corner 3.
-    let centre = [0, 1, 2].map(|k| {
+    let center = [0, 1, 2].map(|k| {
         (squares[0] * normals[0][k] + squares[1] * normals[1][k] + squares[2] * normals[2][k]) / twice
     });
     let local = [u, v, w, [R::default(); 3]];
@@ -158,8 +158,8 @@ pub(super) fn duals<R: Real>(p: [[R; 3]; 4]) -> ([R; 6], f64) {
     for (k, facet) in FACETS.iter().enumerate() {
         let [a, b, c] = facet.map(|i| local[i]);
         let normal = cross(minus(b, a), minus(c, a));
-        // How far inside the centre is, times the length of the normal, and how far inside corner k is.
-        let height = dot(minus(centre, a), normal);
+        // How far inside the center is, times the length of the normal, and how far inside corner k is.
+        let height = dot(minus(center, a), normal);
         let inside = dot(minus(local[k], a), normal);
         let height = if inside.value() < 0.0 { R::default() - height } else { height };
         let over = height / dot(normal, normal);

@@ -1,8 +1,8 @@
 //! The cells of a raster, measured against planes over triangles: row by row, and over large triangles block by block, of which most
 //! are surely not worse than the worst so far. Blocks are tilted, so that this is a matter of how rough they are, not of how steep.
 //!
-//! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Where centres were rounded, what
-//! is on a line by these numbers may be the corners of a triangle, and what is in it their centres tell. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
+//! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Where centers were rounded, what
+//! is on a line by these numbers may be the corners of a triangle, and what is in it their centers tell. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -131,7 +131,7 @@ impl<'a> Lattice<'a> {
         row as u32 * columns as u32 + column as u32
     }
 
-    /// The order of centres, x first.
+    /// The order of centers, x first.
     fn order(&self, a: [i32; 2], b: [i32; 2]) -> Ordering {
         let forwards = self.grid.step().map(|step| step > 0.0);
         let along = |k: usize| if forwards[k] { a[k].cmp(&b[k]) } else { b[k].cmp(&a[k]) };
@@ -139,7 +139,7 @@ impl<'a> Lattice<'a> {
     }
 
     /// Tells the cells in a triangle whose corners are on a line by their numbers, but for these, and how far each is off. They are on that
-    /// line; whether they are in this triangle or in one beside it their centres tell.
+    /// line; whether they are in this triangle or in one beside it their centers tell.
     #[cold]
     fn along(&self, corners: Triple, mut take: impl FnMut([i32; 2], f64)) {
         let cells = corners.map(|s| self.cell(s));
@@ -156,13 +156,13 @@ impl<'a> Lattice<'a> {
         for k in 1..steps {
             let cell = [0, 1].map(|axis| a[axis] + across[axis] / steps * k);
             let (sample, z) = (Self::sample(cell, self.columns), self.at(cell));
-            let centre = self.point(sample);
+            let center = self.point(sample);
             let is_in =
-                || [[p, q], [q, r], [r, p]].iter().all(|&[u, v]| !orient2d(u, v, centre).is_negative());
+                || [[p, q], [q, r], [r, p]].iter().all(|&[u, v]| !orient2d(u, v, center).is_negative());
             if !z.is_nan() && !cells.contains(&cell) && is_in() {
                 take(
                     cell,
-                    (z - mean(places.map(|place| place.0), places.map(|place| place.1), centre)).abs(),
+                    (z - mean(places.map(|place| place.0), places.map(|place| place.1), center)).abs(),
                 );
             }
         }
@@ -290,7 +290,7 @@ impl Samples for Lattice<'_> {
 
     fn point(&self, sample: u32) -> [f64; 2] {
         let [column, row] = self.cell(sample);
-        self.grid.centre(column as usize, row as usize)
+        self.grid.center(column as usize, row as usize)
     }
 
     fn height(&self, sample: u32) -> f64 {

@@ -191,8 +191,8 @@ impl Mesh {
                         continue;
                     }
                     if !is_fixed {
-                        let (neighbour, side) = self.edge(beyond);
-                        let apex = self.point(neighbour.corners[side]);
+                        let (neighbor, side) = self.edge(beyond);
+                        let apex = self.point(neighbor.corners[side]);
                         let [from, to] = [from, to].map(|v| self.point(v));
                         if self.filter.in_circle(to, from, apex, q).is_positive() {
                             self.stamps[other as usize] = now;

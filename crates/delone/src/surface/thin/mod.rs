@@ -230,7 +230,7 @@ impl Thinning {
     }
 
     /// Thins the cells of a raster that have data: values row by row, NaN where there is none. Vertices are numbers of cells.
-    /// Errors are those over columns and rows, without the rounding of where centres are, which moves a place by a small part of a cell.
+    /// Errors are those over columns and rows, without the rounding of where centers are, which moves a place by a small part of a cell.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one value a cell,
@@ -275,8 +275,8 @@ impl Thinning {
     /// Thins the cells with data as points.
     fn cells(&self, grid: &Grid, values: &[f64]) -> Result<Thinned, Error> {
         let cells: Vec<u32> = (0..values.len() as u32).filter(|&i| !values[i as usize].is_nan()).collect();
-        let centre = |&i: &u32| grid.centre(i as usize % grid.columns(), i as usize / grid.columns());
-        let points: Vec<[f64; 2]> = cells.iter().map(centre).collect();
+        let center = |&i: &u32| grid.center(i as usize % grid.columns(), i as usize / grid.columns());
+        let points: Vec<[f64; 2]> = cells.iter().map(center).collect();
         let heights: Vec<f64> = cells.iter().map(|&i| values[i as usize]).collect();
         Ok(self.points(&points, &heights, &[])?.named(&cells))
     }
@@ -354,7 +354,7 @@ fn filter(width: f64, height: f64, coordinates: &[f64]) -> Filter {
     Filter::for_box(width, height, Steps::of(coordinates))
 }
 
-/// Whether centres are rounded so much, in parts of a cell, that a triangle may turn over by it.
+/// Whether centers are rounded so much, in parts of a cell, that a triangle may turn over by it.
 fn is_coarse(grid: &Grid) -> bool {
     let count = [grid.columns(), grid.rows()];
     let most = |k: usize, place: fn(&Grid, usize) -> f64| {
@@ -382,8 +382,8 @@ fn corners(grid: &Grid, values: &[f64]) -> Result<Vec<usize>, Error> {
         cells.extend(first.into_iter().chain(last).map(|c| r * columns + c));
     }
     cells.dedup();
-    let centres: Vec<[f64; 2]> = cells.iter().map(|&i| grid.centre(i % columns, i / columns)).collect();
-    let hull = Hull2::from_points(&centres)?;
+    let centers: Vec<[f64; 2]> = cells.iter().map(|&i| grid.center(i % columns, i / columns)).collect();
+    let hull = Hull2::from_points(&centers)?;
     let mut corners: Vec<usize> = hull.corners().iter().map(|&i| cells[i]).collect();
     corners.sort_unstable();
     Ok(corners)

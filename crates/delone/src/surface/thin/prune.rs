@@ -4,13 +4,13 @@
 //! from any Delaunay triangulation; if no sample is too far from the triangles that come of it, the vertex goes. The last ones that were
 //! chosen are asked first, and each once, so what is left is again a matter of the set of points alone.
 //!
-//! Cost: for a vertex the samples in its star, and O(k^2) for k neighbours; one with many is left, which bounds that.
+//! Cost: for a vertex the samples in its star, and O(k^2) for k neighbors; one with many is left, which bounds that.
 
 use super::Samples;
 use super::greedy::Greedy;
 use super::mesh::{Mesh, NONE, Triangle, next};
 
-/// A vertex with more neighbours stays.
+/// A vertex with more neighbors stays.
 const NEIGHBOURS: usize = 64;
 
 /// The place of a vertex that may go: its triangles, and what shall be there.

@@ -214,15 +214,15 @@ fn rasters_are_thinned_as_points() {
     for (columns, rows) in [(40, 30), (2, 2), (65, 9), (33, 64)] {
         for missing in [0, 7, 2] {
             let grid = Grid::new([100.0, 50.0], [0.1, -0.1], columns, rows).expect("a raster");
-            let centres: Vec<[f64; 2]> =
-                (0..rows).flat_map(|r| (0..columns).map(move |c| grid.centre(c, r))).collect();
-            let mut z = heights(&centres);
+            let centers: Vec<[f64; 2]> =
+                (0..rows).flat_map(|r| (0..columns).map(move |c| grid.center(c, r))).collect();
+            let mut z = heights(&centers);
             let has_data = |i: usize| missing == 0 || (i * i) % 11 >= missing;
             (0..z.len()).filter(|&i| !has_data(i)).for_each(|i| z[i] = f64::NAN);
             for bound in [3.0, 0.3, 0.0] {
                 let thinned = Thinning::new().max_error(bound).raster(&grid, &z).expect("valid");
                 let there: Vec<usize> = (0..z.len()).filter(|&i| has_data(i)).collect();
-                let points: Vec<[f64; 2]> = there.iter().map(|&i| centres[i]).collect();
+                let points: Vec<[f64; 2]> = there.iter().map(|&i| centers[i]).collect();
                 let heights: Vec<f64> = there.iter().map(|&i| z[i]).collect();
                 let left: Vec<usize> = thinned
                     .vertices
@@ -364,7 +364,7 @@ fn exact_height(c: [[f64; 2]; 3], z: [f64; 3], q: [f64; 2]) -> f64 {
     weights.iter().zip(z).map(|(&w, z)| w as f64 / all * z).sum()
 }
 
-/// Cells on a line are the corners of thin triangles where their centres are rounded.
+/// Cells on a line are the corners of thin triangles where their centers are rounded.
 #[test]
 fn rasters_with_slanted_borders_and_rounded_cells_are_near() {
     let mut random = Random::new(5);
@@ -383,15 +383,15 @@ fn rasters_with_slanted_borders_and_rounded_cells_are_near() {
         values.iter_mut().for_each(|z| *z += random.unit());
         let bound = [0.5, 1.5, 3.0][round % 3];
         let thinned = Thinning::new().max_error(bound).raster(&grid, &values).expect("valid");
-        let centre = |i: usize| grid.centre(i % n, i / n);
-        let chosen: Vec<[f64; 2]> = thinned.vertices.iter().map(|&i| centre(i)).collect();
+        let center = |i: usize| grid.center(i % n, i / n);
+        let chosen: Vec<[f64; 2]> = thinned.vertices.iter().map(|&i| center(i)).collect();
         let d = Delaunay2::from_points(&chosen).expect("finite");
         let mut worst = 0.0_f64;
         for i in (0..n * n).filter(|&i| !values[i].is_nan()) {
-            let t = crate::Ask::find(&d, centre(i)).expect("finite").simplex.expect("inside of the hull");
+            let t = crate::Ask::find(&d, center(i)).expect("finite").simplex.expect("inside of the hull");
             let corners = d.mesh().corners(t);
             let height = |v: VertexId| values[thinned.vertices[v.index()]];
-            let at = exact_height(corners.map(|v| d.point(v)), corners.map(height), centre(i));
+            let at = exact_height(corners.map(|v| d.point(v)), corners.map(height), center(i));
             worst = worst.max((values[i] - at).abs());
         }
         assert!(worst <= bound + 1e-9, "{round}: {worst} where {bound} is allowed");
@@ -406,13 +406,13 @@ fn rasters_with_slanted_borders_and_rounded_cells_are_near() {
     assert!(thin > 20, "{thin}");
 }
 
-/// Rounding of centres by more than a part of a cell: then cells are points.
+/// Rounding of centers by more than a part of a cell: then cells are points.
 #[test]
 fn rasters_of_coarse_coordinates_are_near() {
     let grid = Grid::new([1e15, 1e15], [0.3, 0.3], 12, 9).expect("a grid");
     let values: Vec<f64> = (0..108).map(|i| f64::from(i % 7) * 1.5 + f64::from(i / 12)).collect();
-    let centres: Vec<[f64; 2]> = (0..108).map(|i| grid.centre(i % 12, i / 12)).collect();
-    let by_points = Thinning::new().max_error(1.0).points(&centres, &values, &[]).expect("valid");
+    let centers: Vec<[f64; 2]> = (0..108).map(|i| grid.center(i % 12, i / 12)).collect();
+    let by_points = Thinning::new().max_error(1.0).points(&centers, &values, &[]).expect("valid");
     assert_eq!(Thinning::new().max_error(1.0).raster(&grid, &values).expect("valid"), by_points);
 }
 

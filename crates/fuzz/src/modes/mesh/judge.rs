@@ -341,10 +341,10 @@ impl Case<'_> {
             let most = area * (1.0 + slack) + rounded;
             most > 0.0 && (most.is_infinite() || is_area_at_most(points, most))
         };
-        let centre = [0, 1].map(|k| points.iter().map(|p| p[k] / 3.0).sum::<f64>());
+        let center = [0, 1].map(|k| points.iter().map(|p| p[k] / 3.0).sum::<f64>());
         // What is asked for at the centroid is asked for at a rounded one.
         let field = |field: super::wish::Field| {
-            field.at(centre) + 8.0 * slack.signum() * field.slope * unit(self.after)
+            field.at(center) + 8.0 * slack.signum() * field.slope * unit(self.after)
         };
         self.wish.max_edge.is_none_or(longest)
             && area.is_none_or(largest)

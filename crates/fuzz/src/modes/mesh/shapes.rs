@@ -39,10 +39,10 @@ impl Shape {
     }
 }
 
-fn polygon(corners: usize, centre: Point, radius: f64) -> Vec<Point> {
+fn polygon(corners: usize, center: Point, radius: f64) -> Vec<Point> {
     let corner = |i: usize| {
         let (sin, cos) = (TAU * i as f64 / corners as f64).sin_cos();
-        [centre[0] + radius * cos, centre[1] + radius * sin]
+        [center[0] + radius * cos, center[1] + radius * sin]
     };
     (0..corners).map(corner).collect()
 }

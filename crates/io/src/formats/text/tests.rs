@@ -35,7 +35,7 @@ fn separators_and_headers() {
         "//X Y\n2\n1 2\n3.5 -4",
         "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3.5 -4",
         "\tx\ty\tz\n0\t1\t2\t7\n1\t3.5\t-4\t7",
-        "colour,x,y\n\"#ff0000\",1,2\n# 2,7,8\nred,3.5,-4",
+        "color,x,y\n\"#ff0000\",1,2\n# 2,7,8\nred,3.5,-4",
         "1,2,\n3.5,-4,",
         "x,y\n1,2,\n3.5,-4,",
         "# lat lon (WGS84)\n# made by me\n2 1\n-4 3.5",
@@ -72,7 +72,7 @@ fn errors_name_the_line() {
         ("x,y,z\n1,2,3,4", "line 2: 4 fields where the first line has 3"),
         ("x,y\n\"1,000\",2", "line 2: field 1 is \"1,000\", not a number"),
         (
-            "colour,wkt\n#ff0000,POINT (1 2)",
+            "color,wkt\n#ff0000,POINT (1 2)",
             "line 2: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
         ),
         (

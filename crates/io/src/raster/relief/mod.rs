@@ -1,7 +1,7 @@
 //! Relief: what a raster of heights looks like or how steep it is, as another raster.
 //!
 //! Source: Horn, "Hill shading and the reflectance map", Proc. IEEE 69 (1981), for the slopes: weighted differences of the eight cells
-//! around. Beside no data and at the border the cell itself stands for its neighbour. Elsewhere numbers are those of `gdaldem`, but for aspects
+//! around. Beside no data and at the border the cell itself stands for its neighbor. Elsewhere numbers are those of `gdaldem`, but for aspects
 //! of cells that are not square, which heed both sides here.
 //!
 //! Memory: three rows. Cost: O(cells).
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn four_lights_are_weighted() {
-        // A ramp that falls to the west by one in one: half of the light of the west, a quarter each of its neighbours.
+        // A ramp that falls to the west by one in one: half of the light of the west, a quarter each of its neighbors.
         let ramp = [0.0, 2.0, 4.0, 0.0, 2.0, 4.0, 0.0, 2.0, 4.0];
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let [west, beside] = [half + half, half + 0.5].map(|sum| sum * half);
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn beside_no_data_the_cell_stands_for_its_neighbours() {
+    fn beside_no_data_the_cell_stands_for_its_neighbors() {
         let nothing = f64::NAN;
         let alone = [nothing, nothing, nothing, nothing, 3.0, nothing, nothing, nothing, nothing];
         assert!(is_near(middle(ReliefKind::Slope, 1.0, &alone), 0.0));

@@ -11,7 +11,7 @@ use super::{compression, tag};
 use crate::input::most_inflated;
 use crate::{Error, Source};
 
-/// Meanings of cells: shades, of which 0 may be the lightest or the darkest, colours, masks.
+/// Meanings of cells: shades, of which 0 may be the lightest or the darkest, colors, masks.
 const SHADES: [u16; 2] = [0, 1];
 const COLOURS: u16 = 2;
 const MASK: u16 = 4;

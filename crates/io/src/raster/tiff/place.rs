@@ -17,7 +17,7 @@ pub(super) fn tags(grid: &Grid) -> Vec<(u16, Vec<f64>)> {
     vec![(tag::TRANSFORM, matrix)]
 }
 
-/// The grid that tags tell: the scale and a tie, or a matrix. `is_point` says that cells are meant by their centres.
+/// The grid that tags tell: the scale and a tie, or a matrix. `is_point` says that cells are meant by their centers.
 pub(super) fn grid(
     scale: &[f64],
     tie: &[f64],
@@ -54,8 +54,8 @@ mod tests {
             let read = grid(find(33_550), find(33_922), find(34_264), false, [3, 4]).expect("a raster");
             assert_eq!((read.corner(), read.step()), (made.corner(), step));
         }
-        let centres = grid(&[2.0, 2.0, 0.0], &[1.0, 1.0, 0.0, 11.0, 19.0, 0.0], &[], true, [3, 4]);
-        assert_eq!(centres.expect("a raster").corner(), [8.0, 22.0]);
+        let centers = grid(&[2.0, 2.0, 0.0], &[1.0, 1.0, 0.0, 11.0, 19.0, 0.0], &[], true, [3, 4]);
+        assert_eq!(centers.expect("a raster").corner(), [8.0, 22.0]);
         let mut matrix = [0.0; 16];
         matrix[..8].copy_from_slice(&[1.0, 0.5, 0.0, 0.0, 0.5, -1.0, 0.0, 0.0]);
         assert!(grid(&[], &[], &matrix, false, [3, 4]).is_err(), "rotated");

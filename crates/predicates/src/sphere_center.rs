@@ -1,6 +1,6 @@
-//! The centre of the sphere through four points: balls, exact. A construction, so it is rounded, and correctly; nothing is decided by it.
+//! The center of the sphere through four points: balls, exact. A construction, so it is rounded, and correctly; nothing is decided by it.
 //!
-//! Seen from one corner, with sides u, v, w, the centre is at (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (2 u . v x w).
+//! Seen from one corner, with sides u, v, w, the center is at (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (2 u . v x w).
 
 use crate::ball::{Ball, Number};
 use crate::exact::big;
@@ -8,22 +8,22 @@ use crate::line::middle;
 use crate::orthosphere::fraction::{length, normal};
 use crate::{Point3, Sign};
 
-/// The centre of the sphere through four points that are not in a plane. In coordinate units, correctly rounded: each coordinate is
+/// The center of the sphere through four points that are not in a plane. In coordinate units, correctly rounded: each coordinate is
 /// the nearest `f64` of the exact one, so the same bits for every order of the points, and for five points on one sphere whichever
 /// four are asked.
 ///
-/// `None` if it is too far away for an `f64`, and for points in a plane. O(1): some 300 nanoseconds, and ten microseconds for a centre
+/// `None` if it is too far away for an `f64`, and for points in a plane. O(1): some 300 nanoseconds, and ten microseconds for a center
 /// half way between two numbers or of corners that are flat but for rounding.
 ///
 /// ```
-/// use delone_predicates::circumcentre3;
+/// use delone_predicates::circumcenter3;
 /// let [a, b, c] = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
-/// assert_eq!(circumcentre3([0.0; 3], a, b, c), Some([1.0; 3]));
-/// assert_eq!(circumcentre3([0.0; 3], a, b, [1.0, 1.0, 0.0]), None);
+/// assert_eq!(circumcenter3([0.0; 3], a, b, c), Some([1.0; 3]));
+/// assert_eq!(circumcenter3([0.0; 3], a, b, [1.0, 1.0, 0.0]), None);
 /// ```
-pub fn circumcentre3(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Point3> {
+pub fn circumcenter3(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Point3> {
     let corners = [a, b, c, d];
-    in_balls(corners).or_else(|| exactly(corners)).filter(|centre| centre.iter().all(|x| x.is_finite()))
+    in_balls(corners).or_else(|| exactly(corners)).filter(|center| center.iter().all(|x| x.is_finite()))
 }
 
 /// A numerator for each axis, and the denominator.
@@ -46,15 +46,15 @@ fn in_balls(corners: [Point3; 4]) -> Option<Point3> {
     if volume.bounds()[0] <= 0.0 {
         return None;
     }
-    let mut centre = [0.0; 3];
+    let mut center = [0.0; 3];
     for axis in 0..3 {
         let sum = || Ball::exactly(a[axis]).plus(&less(offset[axis]).over(&volume)).nearest();
-        centre[axis] = known(corners, axis).or_else(sum)?;
+        center[axis] = known(corners, axis).or_else(sum)?;
     }
-    Some(centre)
+    Some(center)
 }
 
-/// Between corners that differ along an axis alone the centre is above their middle, which is often half way between two numbers.
+/// Between corners that differ along an axis alone the center is above their middle, which is often half way between two numbers.
 fn known(corners: [Point3; 4], axis: usize) -> Option<f64> {
     let pairs = (0..4).flat_map(|i| (0..i).map(move |j| (corners[i], corners[j])));
     let along = |p: Point3, q: Point3| (0..3).all(|k| (p[k] == q[k]) == (k != axis));
@@ -73,19 +73,19 @@ fn exactly(corners: [Point3; 4]) -> Option<Point3> {
 
 #[cfg(test)]
 mod tests {
-    use super::{circumcentre3, exactly, in_balls};
+    use super::{circumcenter3, exactly, in_balls};
     use delone_generators::{Kind3, Random};
     use delone_oracle::share;
 
     #[test]
-    fn every_way_gives_the_exact_centre_rounded() {
+    fn every_way_gives_the_exact_center_rounded() {
         let (mut all, mut by_balls) = (0, 0);
         for &kind in Kind3::ALL {
             for p in kind.points(share(4000), 1).chunks_exact(4) {
                 let exact = exactly([p[0], p[1], p[2], p[3]]).filter(|c| c.iter().all(|x| x.is_finite()));
-                let found = circumcentre3(p[0], p[1], p[2], p[3]);
+                let found = circumcenter3(p[0], p[1], p[2], p[3]);
                 assert_eq!(found, exact, "{kind:?} {p:?}");
-                let other = circumcentre3(p[2], p[0], p[3], p[1]);
+                let other = circumcenter3(p[2], p[0], p[3], p[1]);
                 assert_eq!(other.map(|c| c.map(f64::to_bits)), found.map(|c| c.map(f64::to_bits)));
                 if let Some(found) = in_balls([p[0], p[1], p[2], p[3]]) {
                     assert_eq!(Some(found), exact, "{kind:?} {p:?}");
@@ -97,40 +97,40 @@ mod tests {
         assert!(2 * by_balls > all, "{by_balls} of {all}");
     }
 
-    /// The nearest point to the exact centre, by its distances from the corners in integers: no step along an axis makes them more equal.
+    /// The nearest point to the exact center, by its distances from the corners in integers: no step along an axis makes them more equal.
     #[test]
-    fn centres_are_where_distances_are_equal() {
+    fn centers_are_where_distances_are_equal() {
         let mut random = Random::new(3);
         for _ in 0..share(4000) {
-            // The centre is a point, in small integers: every corner is at one distance.
-            let centre = [(); 3].map(|()| random.below(64) as f64 * 0.5);
+            // The center is a point, in small integers: every corner is at one distance.
+            let center = [(); 3].map(|()| random.below(64) as f64 * 0.5);
             let offsets =
                 [[1.0, 4.0, 8.0], [-4.0, 4.0, 7.0], [8.0, -1.0, -4.0], [4.0, 8.0, 1.0], [0.0, 0.0, 9.0]];
             let k = random.below(5);
             let p = [0, 1, 2, 3].map(|i| {
                 let offset = offsets[(i + k) % 5];
-                [0, 1, 2].map(|axis| centre[axis] + offset[axis])
+                [0, 1, 2].map(|axis| center[axis] + offset[axis])
             });
-            let found = circumcentre3(p[0], p[1], p[2], p[3]);
-            assert!(found == Some(centre) || found.is_none(), "{p:?} {found:?}");
+            let found = circumcenter3(p[0], p[1], p[2], p[3]);
+            assert!(found == Some(center) || found.is_none(), "{p:?} {found:?}");
         }
     }
 
     #[test]
-    fn boxes_have_one_centre() {
+    fn boxes_have_one_center() {
         // Of a box at a tenth each four corners that are not in a plane have the same.
         let at = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { 0.1 } else { 0.3 });
-        let mut centres = Vec::new();
+        let mut centers = Vec::new();
         for i in 0..8 {
             for j in 0..i {
                 for k in 0..j {
                     for l in 0..k {
-                        centres.extend(circumcentre3(at(i), at(j), at(k), at(l)));
+                        centers.extend(circumcenter3(at(i), at(j), at(k), at(l)));
                     }
                 }
             }
         }
-        assert_eq!(centres.len(), 58);
-        assert!(centres.iter().all(|centre| *centre == centres[0]));
+        assert_eq!(centers.len(), 58);
+        assert!(centers.iter().all(|center| *center == centers[0]));
     }
 }

@@ -1,6 +1,6 @@
-//! The centres of the circles of all triangles, each computed once, and which of them are surely inside of a box.
+//! The centers of the circles of all triangles, each computed once, and which of them are surely inside of a box.
 //!
-//! A cell whose corners all are is whole, because a box has no dents: what is asked of each centre once need not be asked of each cell
+//! A cell whose corners all are is whole, because a box has no dents: what is asked of each center once need not be asked of each cell
 //! that has it. Elsewhere a cell is asked about by the box around it (`cells.rs`).
 //!
 //! Cost: O(n).
@@ -13,14 +13,14 @@ use crate::plane::layer::kernel::Site;
 use crate::prefetch::{self, prefetch};
 
 /// By the index of the triangle.
-pub(in crate::plane) struct Centres {
+pub(in crate::plane) struct Centers {
     /// Infinite where there is none.
     pub(in crate::plane) points: Vec<[f64; 2]>,
-    /// Whether the exact centre is surely inside of the box; nothing if there is no box.
+    /// Whether the exact center is surely inside of the box; nothing if there is no box.
     pub(in crate::plane) inside: Vec<bool>,
 }
 
-impl Centres {
+impl Centers {
     /// Of all triangles of a layer.
     pub(in crate::plane) fn of<K: Cellular>(layer: &Layer<K>, within: Option<[[f64; 2]; 2]>) -> Self {
         let slots = layer.mesh.edges.len() / 4;
@@ -35,10 +35,10 @@ impl Centres {
                 prefetch(&layer.points, corner.origin.index());
             }
             let sites = sites(layer, corners);
-            let centre = sites.and_then(|[a, b, c]| K::centre(a, b, c));
-            points.push(centre.unwrap_or([f64::INFINITY; 2]));
+            let center = sites.and_then(|[a, b, c]| K::center(a, b, c));
+            points.push(center.unwrap_or([f64::INFINITY; 2]));
             if let Some(within) = within {
-                inside.push(centre.is_some_and(|centre| is_inside(centre, within)));
+                inside.push(center.is_some_and(|center| is_inside(center, within)));
             }
         }
         Self { points, inside }
@@ -53,7 +53,7 @@ fn sites<K: Cellular>(layer: &Layer<K>, corners: &[HalfEdge]) -> Option<[Site<K>
     a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
 }
 
-/// Whether the exact centre is inside of a box, from the rounded one. Rounding keeps order: what is not beyond a number is not rounded
+/// Whether the exact center is inside of a box, from the rounded one. Rounding keeps order: what is not beyond a number is not rounded
 /// beyond it, so what is rounded beyond it is.
 #[inline]
 fn is_inside([x, y]: [f64; 2], [low, high]: [[f64; 2]; 2]) -> bool {

@@ -1,4 +1,4 @@
-//! Colours and ramps.
+//! Colors and ramps.
 
 /// Red, green, blue.
 pub(super) type Rgb = [u8; 3];
@@ -13,9 +13,9 @@ pub(super) const DISK: Rgb = [187, 222, 251];
 pub(super) const LINK: Rgb = [46, 125, 50];
 pub(super) const CONSTRAINT: Rgb = [33, 33, 33];
 
-/// Light colours of many kinds.
+/// Light colors of many kinds.
 pub(super) fn numbered(k: usize) -> Rgb {
-    // Steps of the golden ratio around the circle of colours never come back.
+    // Steps of the golden ratio around the circle of colors never come back.
     let turn = |offset: f64| {
         let t = (k as f64 * 0.618_034 + offset).fract();
         let wave = (std::f64::consts::TAU * t).cos();
@@ -24,7 +24,7 @@ pub(super) fn numbered(k: usize) -> Rgb {
     [turn(0.0), turn(1.0 / 3.0), turn(2.0 / 3.0)]
 }
 
-/// Equally spaced colours, interpolated.
+/// Equally spaced colors, interpolated.
 pub(super) struct Ramp(&'static [Rgb]);
 
 /// Heights: valley green over ochre to snow.
@@ -39,16 +39,16 @@ pub(super) const HEIGHT: Ramp = Ramp(&[
     [244, 242, 238],
 ]);
 
-/// Densities: from sparse (light) to dense (dark), readable without colour vision.
+/// Densities: from sparse (light) to dense (dark), readable without color vision.
 pub(super) const DENSITY: Ramp =
     Ramp(&[[247, 244, 220], [199, 226, 180], [127, 196, 187], [65, 153, 192], [44, 97, 170], [30, 45, 110]]);
 
-/// Smallest angles: from small (dark) to those of equilateral triangles (light), readable without colour vision.
+/// Smallest angles: from small (dark) to those of equilateral triangles (light), readable without color vision.
 pub(super) const ANGLE: Ramp =
     Ramp(&[[60, 10, 40], [150, 30, 70], [214, 84, 66], [243, 153, 73], [250, 214, 130], [252, 248, 220]]);
 
 impl Ramp {
-    /// The colour at `t` from 0 to 1.
+    /// The color at `t` from 0 to 1.
     pub(super) fn at(&self, t: f64) -> Rgb {
         let last = self.0.len() - 1;
         let position = if t > 0.0 { t.min(1.0) * last as f64 } else { 0.0 };
@@ -60,12 +60,12 @@ impl Ramp {
 /// How dense what has these areas is, by the logarithms of their ratios: so it is the same in all units.
 pub(super) struct Density {
     low: f64,
-    /// The logarithms, over `low`, between which colours change.
+    /// The logarithms, over `low`, between which colors change.
     range: [f64; 2],
 }
 
 impl Density {
-    /// Between two areas. Even areas are to look even, and those that differ by rounding alike: all colours are a factor of four.
+    /// Between two areas. Even areas are to look even, and those that differ by rounding alike: all colors are a factor of four.
     pub(super) fn between(low: f64, high: f64) -> Self {
         let low = low.max(f64::MIN_POSITIVE);
         let span = ratio(high, low);
@@ -91,10 +91,10 @@ pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
 }
 
 /// Darker below 1, lighter above.
-pub(super) fn shade(colour: Rgb, light: f64) -> Rgb {
+pub(super) fn shade(color: Rgb, light: f64) -> Rgb {
     if light <= 1.0 {
-        mix([16, 24, 32], colour, light.max(0.0))
+        mix([16, 24, 32], color, light.max(0.0))
     } else {
-        mix(colour, PAPER, (light - 1.0).min(1.0))
+        mix(color, PAPER, (light - 1.0).min(1.0))
     }
 }

@@ -1,4 +1,4 @@
-//! The centre of a circle through three points, and the point with the same power to three sites: floating point,
+//! The center of a circle through three points, and the point with the same power to three sites: floating point,
 //! balls, exact. Constructions, so they are rounded, and correctly; nothing is decided by them.
 //!
 //! Correctly rounded means: each coordinate is the nearest `f64` of the exact one. Rounding keeps order, so corners of a cell that are
@@ -24,21 +24,21 @@ pub(crate) const AREA_BOUND: f64 = 5.02;
 /// Added to the bound of a numerator's terms, it covers what an underflow may take from them.
 const TERMS_FLOOR: f64 = 1e-300;
 
-/// The centre of the circle through three points that are not collinear. In coordinate units, correctly rounded: each coordinate
+/// The center of the circle through three points that are not collinear. In coordinate units, correctly rounded: each coordinate
 /// is the nearest `f64` of the exact one, so the same bits for every order of the points, and for four points on one circle
 /// whichever three are asked.
 ///
 /// `None` if it is too far away for an `f64`, and for collinear points. O(1).
 ///
 /// ```
-/// use delone_predicates::circumcentre;
-/// assert_eq!(circumcentre([0.0, 0.0], [2.0, 0.0], [0.0, 2.0]), Some([1.0, 1.0]));
-/// assert_eq!(circumcentre([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]), None);
-/// // Almost on a line: floating point alone would lose the centre.
-/// assert_eq!(circumcentre([-1.0, 0.0], [1.0, 0.0], [0.0, 1e-20]), Some([0.0, -5e19]));
+/// use delone_predicates::circumcenter;
+/// assert_eq!(circumcenter([0.0, 0.0], [2.0, 0.0], [0.0, 2.0]), Some([1.0, 1.0]));
+/// assert_eq!(circumcenter([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]), None);
+/// // Almost on a line: floating point alone would lose the center.
+/// assert_eq!(circumcenter([-1.0, 0.0], [1.0, 0.0], [0.0, 1e-20]), Some([0.0, -5e19]));
 /// ```
 #[inline]
-pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+pub fn circumcenter(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     in_floating_point(a, b, c).or_else(|| slowly([a, b, c]))
 }
 
@@ -74,7 +74,7 @@ fn in_floating_point(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     None
 }
 
-/// Two points at one height have the centre above their middle, which is often half way between two numbers; a right angle has it
+/// Two points at one height have the center above their middle, which is often half way between two numbers; a right angle has it
 /// in the middle of the side across. No precision would settle these.
 #[inline(never)]
 fn slowly(points: [Point2; 3]) -> Option<Point2> {
@@ -86,7 +86,7 @@ fn slowly(points: [Point2; 3]) -> Option<Point2> {
     let known = [0, 1].map(|axis| sides.iter().find_map(|side| side.fixed(axis)));
     rounded::meeting(&Line::Bisector(a, b), &Line::Bisector(a, c), known)
         .or_else(|| of_right_angle(points))
-        .or_else(|| exact::circumcentre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
+        .or_else(|| exact::circumcenter(a, b, c).filter(|center| center.iter().all(|x| x.is_finite())))
 }
 
 /// The middle of the longest side, if the angle across is exactly a right one, as far as products of two `f64`s tell.
@@ -110,14 +110,14 @@ fn of_right_angle([a, b, c]: [Point2; 3]) -> Option<Point2> {
 /// `None` if it is too far away for an `f64`, and for collinear points. O(1).
 ///
 /// ```
-/// use delone_predicates::power_centre;
+/// use delone_predicates::power_center;
 /// let (a, b, c) = (([0.0, 0.0], 0.0), ([2.0, 0.0], 0.0), ([0.0, 2.0], 0.0));
-/// assert_eq!(power_centre(a, b, c), Some([1.0, 1.0]));
-/// assert_eq!(power_centre(a, ([2.0, 0.0], 2.0), c), Some([0.5, 1.0])); // further from the heavy one
+/// assert_eq!(power_center(a, b, c), Some([1.0, 1.0]));
+/// assert_eq!(power_center(a, ([2.0, 0.0], 2.0), c), Some([0.5, 1.0])); // further from the heavy one
 /// ```
-pub fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
+pub fn power_center(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
     if a.1 == b.1 && b.1 == c.1 {
-        return circumcentre(a.0, b.0, c.0);
+        return circumcenter(a.0, b.0, c.0);
     }
     if a.0 == b.0 || b.0 == c.0 || c.0 == a.0 {
         return None;
@@ -125,24 +125,24 @@ pub fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
     let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Line::Radical(p, q));
     let known = [0, 1].map(|axis| sides.iter().find_map(|side| side.fixed(axis)));
     rounded::meeting(&Line::Radical(a, b), &Line::Radical(a, c), known)
-        .or_else(|| exact::power::power_centre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
+        .or_else(|| exact::power::power_center(a, b, c).filter(|center| center.iter().all(|x| x.is_finite())))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{circumcentre, in_floating_point, of_right_angle};
+    use super::{circumcenter, in_floating_point, of_right_angle};
     use crate::exact;
     use delone_generators::Kind;
 
     #[test]
-    fn a_centre_too_far_away_is_none() {
+    fn a_center_too_far_away_is_none() {
         let [a, b, c] =
             [[9e-310, 0.0], [0.0, -9.006_755_220_184_234e30], [3e-310, -1.801_351_044_036_846_7e31]];
-        assert_eq!(circumcentre(a, b, c), None);
+        assert_eq!(circumcenter(a, b, c), None);
     }
 
     #[test]
-    fn every_way_gives_the_exact_centre_rounded() {
+    fn every_way_gives_the_exact_center_rounded() {
         let (mut all, mut fast) = (0, 0);
         for &kind in Kind::ALL {
             let points = kind.points(3000, 1);
@@ -150,9 +150,9 @@ mod tests {
             let far = points.iter().map(|p| p.map(|x| x / 64.0 + 1.0));
             let all_points: Vec<[f64; 2]> = points.iter().copied().chain(far).collect();
             for p in all_points.chunks_exact(3) {
-                let exact = exact::circumcentre(p[0], p[1], p[2]);
-                let expected = exact.filter(|centre| centre.iter().all(|x| x.is_finite()));
-                assert_eq!(circumcentre(p[0], p[1], p[2]), expected, "{kind:?} {p:?}");
+                let exact = exact::circumcenter(p[0], p[1], p[2]);
+                let expected = exact.filter(|center| center.iter().all(|x| x.is_finite()));
+                assert_eq!(circumcenter(p[0], p[1], p[2]), expected, "{kind:?} {p:?}");
                 if let Some(found) = in_floating_point(p[0], p[1], p[2]) {
                     assert_eq!(Some(found), expected, "{kind:?} {p:?}");
                     fast += 1;
@@ -160,7 +160,7 @@ mod tests {
                 all += 1;
             }
         }
-        assert!(fast > all / 6, "only {fast} of {all} centres came from floating point");
+        assert!(fast > all / 6, "only {fast} of {all} centers came from floating point");
     }
 
     #[test]
@@ -198,17 +198,17 @@ mod tests {
     }
 
     #[test]
-    fn centres_beyond_the_range_are_none() {
-        assert_eq!(circumcentre([-1e200, 0.0], [1e200, 0.0], [0.0, 1e-20]), None);
-        assert_eq!(circumcentre([-1e-200, 0.0], [1e-200, 0.0], [0.0, 1e-200]), Some([0.0, 0.0]));
+    fn centers_beyond_the_range_are_none() {
+        assert_eq!(circumcenter([-1e200, 0.0], [1e200, 0.0], [0.0, 1e-20]), None);
+        assert_eq!(circumcenter([-1e-200, 0.0], [1e-200, 0.0], [0.0, 1e-200]), Some([0.0, 0.0]));
         // Differences that are subnormal: their products lose bits, or all of them.
         let [near, far] = [1.25e-309, 1.981_116_490_576_4e-310];
-        let centre = circumcentre([near, 1e-4], [near, -1e-4], [far, 3.981_071_705_534_969_5e-5]);
-        assert_eq!(centre, Some([4.000_000_000_000_001e300, 0.0]));
-        assert_eq!(circumcentre([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
+        let center = circumcenter([near, 1e-4], [near, -1e-4], [far, 3.981_071_705_534_969_5e-5]);
+        assert_eq!(center, Some([4.000_000_000_000_001e300, 0.0]));
+        assert_eq!(circumcenter([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
         // A middle whose sum is too large for a number.
         let far = 1.7e308;
         let middle = far / 2.0 + 1.6e308 / 2.0;
-        assert_eq!(circumcentre([far, 0.0], [far, 2.0], [1.6e308, 0.0]), Some([middle, 1.0]));
+        assert_eq!(circumcenter([far, 0.0], [far, 2.0], [1.6e308, 0.0]), Some([middle, 1.0]));
     }
 }
