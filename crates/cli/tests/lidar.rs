@@ -112,8 +112,8 @@ fn dimensions_go_along() {
         "{}",
         &place.read("n.csv")[..60]
     );
-    let said = said(&place, "triangulate l/small.laz --attributes red -o o.ply");
-    assert!(said.contains("o.ply: the attributes of the input are left out: red"), "{said}");
+    let of_mesh = said(&place, "triangulate l/small.laz --attributes red -o o.ply");
+    assert!(of_mesh.contains("o.ply: the attributes of the input are left out: red"), "{of_mesh}");
     place.fail(
         "triangulate l/small.laz --attributes nir -o o.ply",
         1,

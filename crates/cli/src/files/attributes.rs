@@ -13,6 +13,8 @@ struct Known {
     with: Option<Contents>,
     /// The names of all that were read.
     names: Vec<String>,
+    /// Some were asked for by name.
+    are_asked: bool,
     unshown: Unshown,
 }
 
@@ -24,8 +26,12 @@ pub(crate) struct Unshown {
     pub(crate) points: bool,
 }
 
-static KNOWN: Mutex<Known> =
-    Mutex::new(Known { with: None, names: Vec::new(), unshown: Unshown { lines: false, points: false } });
+static KNOWN: Mutex<Known> = Mutex::new(Known {
+    with: None,
+    names: Vec::new(),
+    are_asked: false,
+    unshown: Unshown { lines: false, points: false },
+});
 
 /// Names that a message lists; more are `...`.
 const MOST_NAMES: usize = 12;
@@ -48,6 +54,11 @@ pub(crate) fn heed_unshown(unshown: Unshown) {
     KNOWN.lock().unwrap_or_else(PoisonError::into_inner).unshown = unshown;
 }
 
+/// Some attributes are asked for by name: outputs of every kind that have none of them are told.
+pub(super) fn ask() {
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).are_asked = true;
+}
+
 /// Keeps the names of the attributes of an input.
 pub(super) fn heed(cloud: &Cloud) {
     let names = &mut KNOWN.lock().unwrap_or_else(PoisonError::into_inner).names;
@@ -58,7 +69,7 @@ pub(super) fn heed(cloud: &Cloud) {
     }
 }
 
-/// Says which outputs are without the attributes of the input. Indices and pictures need none.
+/// Says which outputs are without the attributes of the input. Indices and pictures need none that were not asked for.
 pub(super) fn tell(quiet: bool) {
     let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     let mut names: Vec<&str> = known.names.iter().map(String::as_str).collect();
@@ -69,7 +80,7 @@ pub(super) fn tell(quiet: bool) {
         *names.last_mut().expect("there are more") = "...";
     }
     let whose = |format: Format| {
-        if !has_places(format) {
+        if !known.are_asked && !has_places(format) {
             None
         } else if known.with.is_none_or(|with| !format.keeps_attributes(with)) {
             Some("the input")

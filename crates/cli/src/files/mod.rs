@@ -165,6 +165,9 @@ pub(crate) fn is_las(format: Format) -> bool {
 
 /// How the files of a command are read.
 pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
+    if !args.las.attributes.is_empty() {
+        attributes::ask();
+    }
     ReadOptions {
         las: args.las.filter(),
         columns: args.columns.clone(),

@@ -28,6 +28,9 @@ pub(super) type Take<'a> = &'a mut dyn FnMut(&Path, u64, &[[f64; 2]], Option<&[f
 impl<'a> Input<'a> {
     pub(super) fn new(args: &'a TilesArgs) -> Result<Self, Failure> {
         let formats = files::formats(&args.input)?;
+        if !args.input.las.attributes.is_empty() {
+            return Err(Failure::usage("points in tiles have no attributes", "leave --attributes out"));
+        }
         for (path, &format) in args.input.input.iter().zip(&formats) {
             let is_standard = path == Path::new("-");
             let is_file = !is_standard
