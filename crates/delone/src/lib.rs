@@ -57,7 +57,7 @@
 //!
 //! # Names
 //!
-//! What exists in the plane or in space ends in 2 or 3. `new` is empty, `from_points` takes points, `from_vec` may keep
+//! Names of types of the plane or of space end in 2 or 3. `new` is empty, `from_points` takes points, `from_vec` may keep
 //! them, `with_...` has a choice. Triangles are counter-clockwise, tetrahedra in positive order. Errors name what is wrong, by
 //! index.
 //!
@@ -93,6 +93,7 @@ mod book {
 
     pages! {
         Readme: "README.md",
+        Library: "docs/start/library.md",
         Exactness: "docs/learn/exactness.md",
         Canonicity: "docs/learn/canonicity.md",
         Perturbation: "docs/learn/perturbation.md",

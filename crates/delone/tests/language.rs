@@ -11,7 +11,7 @@ const EMPTY_CONSTANTS: [&str; 9] =
 const RIDDLES: [&str; 4] = ["What ", "Those ", "The same ", "So many "];
 
 /// How many comments open with a riddle, at most.
-const MAX_RIDDLES: usize = 20;
+const MAX_RIDDLES: usize = 10;
 
 /// Words in a sentence, on the pages for readers: on average, and at most.
 const MEAN_WORDS: f64 = 18.0;

@@ -1,6 +1,6 @@
 //! Randomized incremental construction in space: Guibas, Knuth & Sharir 1992, §4.3.
 //!
-//! What ever appears is O(n^2) (Theorem 4.6), and for sets whose samples of r points have F(r) tetrahedra O of the sum of
+//! The simplices that ever appear are O(n^2) (Theorem 4.6), and for sets whose samples of r points have F(r) tetrahedra O of the sum of
 //! F(n / k) / k (4.7): linear where F is. The paper's example says that the size of the result says nothing: two skew lines have
 //! a quadratic triangulation, and one more point between them makes it linear, but not what appears before it comes. With weights
 //! (Edelsbrunner & Shah 1996) sites are hidden at once or later.

@@ -1,6 +1,6 @@
 //! Does the sphere of a tetrahedron keep clear of a box? "Certainly", or "perhaps not".
 //!
-//! Those who ask lose only time if a clear sphere is not seen to be clear, so there is no exact stage: floating point with
+//! Callers lose only time if a clear sphere is not recognized, so there is no exact stage: floating point with
 //! a proven bound.
 //!
 //! Let m be the largest difference of a coordinate, u = 2^-53, the first corner the origin. The center is N / D with

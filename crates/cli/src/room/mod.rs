@@ -1,6 +1,6 @@
 //! The plane and space as the commands see them, so that each command is written once.
 //!
-//! What commands share is here too: how points are read, triangulated and remarked on. A dimension tells in its own file
+//! Common parts of commands are here too: how points are read, triangulated and remarked on. A dimension tells in its own file
 //! what is different there.
 
 mod plane;

@@ -5,7 +5,7 @@
 //! which they are kept, and a leaf remembers an edge at its vertex. A hint may grow old; it may not be wrong,
 //! because the walk decides.
 //!
-//! What a query waits for is memory. Three levels of the tree share a cache line, the lowest three share it with
+//! A query waits for memory. Three levels of the tree share a cache line, the lowest three share it with
 //! their eight hints, and all lines above the lowest are a hundredth of the vertices' own memory. The eight lines
 //! below a line are neighbors, and are asked for before the line itself has come: two levels arrive in the time of
 //! one. The splits of the lowest lines are rounded, which a hint can bear.

@@ -1,6 +1,6 @@
 //! Radix sort of 64-bit entries by the bits from 32 up, stably.
 //!
-//! What a cache holds is sorted least significant digits first. More, or on several threads, most significant digit first:
+//! Arrays that fit the cache are sorted least significant digits first. Larger arrays, or several threads, sort most significant digit first:
 //! each thread scatters its part of the input into buckets, whose places are known from counts, and then buckets are
 //! sorted by the rest of the bits. Where nearly all keys are equal, only the others are sorted.
 //!

@@ -16,7 +16,7 @@
 //! of theirs. In the second there is a circle that disks i and j touch from inside and that two other points can be in or
 //! on, one on each side of its chord. So these are the strong and the weak problem themselves, not an approximation.
 //!
-//! What is searched: the vertices in any closed disk induce a connected part of the triangulation of the centers, because each
+//! The search is local: the vertices in any closed disk induce a connected part of the triangulation of the centers, because each
 //! vertex has a neighbor nearer to c unless it is nearest. So, if any k spoils c for a certain edge, a neighbor of i or j does;
 //! possible partners of i are connected with i through possible partners; and whatever comes in the way of a pair about c is
 //! connected with i inside of the circle about c through i and j.

@@ -47,7 +47,7 @@ pub(super) struct Nearest<P> {
 
 /// The nearest point of an edge or a triangle. Corners are sorted, so that those of a side are in the same order in both of its triangles.
 ///
-/// What a point is nearest to is exact: facets that share the side or the corner say the same, to the bit.
+/// The nearest facet of a point is exact: facets that share the side or the corner say the same, to the bit.
 pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
     let from = three(q);
     let active: &[usize] = match corners {

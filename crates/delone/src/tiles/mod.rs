@@ -41,7 +41,7 @@
 //! is not in U_j, which lies outside of F_j. Outside of F it has corners of different parts or is in U_j, by (b). The two are told
 //! apart by what is asked.
 //!
-//! The same words hold in space, with tetrahedra and spheres, and facets for edges.
+//! All of this holds in space, with tetrahedra and spheres, and facets for edges.
 //!
 //! ```
 //! use delone::tiles::{Cuts, Fingerprint, Node, Tile, join};

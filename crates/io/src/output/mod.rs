@@ -1,6 +1,6 @@
 //! Whole files or none: output under a temporary name (`staging.rs`), renamed when complete (`naming.rs`).
 //!
-//! What is no file (a device, a pipe) is written straight; a name that points elsewhere is followed; a file keeps its
+//! Devices and pipes are written directly; a name that points elsewhere is followed; a file keeps its
 //! mode and its owner, and, if it has several names, all of them.
 
 mod naming;

@@ -1,6 +1,6 @@
 //! Finished files get their names: all of them, or none.
 //!
-//! What has the names already is kept until all is done, and put back if something fails. A file that has to keep its place on the disk, because it
+//! Earlier files of these names are kept until all is done, and put back if something fails. A file that has to keep its place on the disk, because it
 //! has several names or its folder may not be written, is written over in place; what it held is beside it meanwhile, as `NAME.old-XXXXXX`,
 //! and stays there if even the machine fails.
 

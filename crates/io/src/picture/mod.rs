@@ -1,6 +1,6 @@
 //! Pictures of triangulations: readable at twenty points and at a million.
 //!
-//! What is drawn follows from the room there is: edges while they are a few pixels long, vertices while they
+//! A drawing shows as much as there is room for: edges while they are a few pixels long, vertices while they
 //! do not touch, and otherwise the triangles alone, colored by height with shading (a relief) or, without
 //! heights, by how dense the points are.
 //!

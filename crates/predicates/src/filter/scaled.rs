@@ -6,7 +6,7 @@
 //! brought back, relative to the largest one. Differences are taken from one of the two points that are nearest to each
 //! other: from a far one, those that are near each other would look the same.
 //!
-//! What is lost by underflow is then lost beside numbers of size one, and a constant floor covers it. Cost: some fifty
+//! Underflow then loses digits only beside numbers of size one, and a constant floor covers it. Cost: some fifty
 //! operations more than the filter; asked only where big integers are what is left.
 
 use super::space::{IN_SPHERE_BOUND, ORIENT3D_BOUND, orient3d_terms, sphere_terms};

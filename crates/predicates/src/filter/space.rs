@@ -1,6 +1,6 @@
 //! The filters in space: orientation of four points, in-sphere test of five.
 //!
-//! The same analysis as in the plane. With extents X, Y, Z and L = X^2 + Y^2 + Z^2, the permanent of an orientation is
+//! The analysis follows that of the plane. With extents X, Y, Z and L = X^2 + Y^2 + Z^2, the permanent of an orientation is
 //! at most 6 XYZ, that of an in-sphere determinant 24 XYZ L.
 
 use super::{Grid, U, outside_of};

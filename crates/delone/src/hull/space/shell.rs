@@ -1,6 +1,6 @@
 //! The hull so far: triangles closed to a sphere, what a point sees of them, and its cap over what it sees.
 //!
-//! What a point sees is decided exactly, and strictly. Points on the plane of a facet do not see it, so a flat face
+//! Visibility of facets is decided exactly, and strictly. Points on the plane of a facet do not see it, so a flat face
 //! may be cut anyhow and may hold points that are no corners of the hull.
 
 use delone_predicates::{Plane, orient3d};

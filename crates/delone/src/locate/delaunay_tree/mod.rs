@@ -7,7 +7,7 @@
 //! one of its parents, and all triangles in conflict with a point are found from the first ones. A search follows them to the
 //! first present one. Removal (in [`remove`]) leaves the tree that would be there had the vertex never come.
 //!
-//! The same in the plane and in space: facets are edges or triangles. Orders are random where the tree is built; later sites
+//! One code serves the plane and space: facets are edges or triangles. Orders are random where the tree is built; later sites
 //! follow as they come. As long as the sites do not span the space there is no tree, and walks start at the last vertex.
 //!
 //! Cost in the plane, expected over random orders: O(n) memory, about 86 bytes a triangle, and O(log n) conflict tests a

@@ -1,6 +1,6 @@
 //! A segment becomes an edge, or a chain of edges through the vertices on it.
 //!
-//! What it crosses between two vertices is a channel of triangles, whose two sides are filled anew. The apex of a side of such
+//! Between two vertices it crosses a channel of triangles, whose two sides are filled anew. The apex of a side of such
 //! a polygon is the vertex of its chain whose circle with the side contains no other: all of a chain see the segment across the
 //! side, through the edges that they had across it, so that no visibility has to be asked. Where a chain comes to one vertex
 //! twice, around what hangs into the channel, either occurrence may be the apex of a side only if the other one is not between

@@ -4,7 +4,7 @@
 //! tessellation", The Computer Journal 1981. With the canonical in-circle test the cavity is that of points in
 //! general position: connected, without an inner vertex, and star-shaped around the new point.
 //!
-//! What is behind a fixed edge is not seen, and not in conflict. The cavity is what flips would make then: an edge is passed
+//! Triangles behind a fixed edge are not seen, and not in conflict. The cavity is what flips would make then: an edge is passed
 //! only if the point is in the circle behind it, so the corner there makes a convex quadrilateral with it, and every border
 //! edge is strictly seen from the point. Both sides of a fixed edge are never in it: its line would pass through the point.
 //!

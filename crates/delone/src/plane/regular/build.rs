@@ -1,6 +1,6 @@
 //! Bulk construction: divide and conquer, and insertion one by one in biased random rounds along a Hilbert curve.
 //!
-//! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it. Sites are kept
+//! A hidden site stays hidden, because more sites only lower the hull of the lifted ones: nothing is kept for it. Sites are kept
 //! in the order of a curve.
 //!
 //! Sources: `construct/divide_and_conquer.rs`; Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Cost: O(n log

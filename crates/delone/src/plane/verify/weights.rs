@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 /// Judges whether `triangles`, corners as indices of `points` in either orientation, are a regular triangulation of points with
 /// weights. Of equal sites any may be the corner.
 ///
-/// What may or may not be a corner, because it is on a plane of the others when lifted, counts as a tie: the canonical
+/// A site that may or may not be a corner, because it is on a plane of the others when lifted, counts as a tie: the canonical
 /// triangulation has it.
 ///
 /// Cost: O(n log n).

@@ -1,6 +1,6 @@
 //! Bulk construction: insertion in biased random rounds along a Hilbert curve, in whose order sites are kept; large sets in parts.
 //!
-//! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it.
+//! A hidden site stays hidden, because more sites only lower the hull of the lifted ones: nothing is kept for it.
 
 use super::Regular3;
 use crate::hidden::HiddenSites;

@@ -1,6 +1,6 @@
 //! Sites that come, go, and change their weights.
 //!
-//! What a new vertex covers keeps its place among the sites that are no vertices. When a vertex goes, its star is filled with
+//! Vertices that a new one hides keep their places among the hidden sites. When a vertex goes, its star is filled with
 //! the tetrahedra of the vertices around it, and then those that were above its tetrahedra come again, one by one: no other
 //! can surface. When vertices span more or less than before, all are triangulated anew.
 //!

@@ -1,6 +1,6 @@
 //! Regular triangulations of space: Delaunay triangulations of points with weights, the duals of power diagrams.
 //!
-//! What `plane/regular` says of triangles holds of tetrahedra: a site is a vertex if and only if its closed power cell is not
+//! The statements of `plane/regular` on triangles hold for tetrahedra: a site is a vertex if and only if its closed power cell is not
 //! empty, and the triangulation is a function of the set of sites.
 //!
 //! Sources: Aurenhammer, "Power diagrams: properties, algorithms and applications", SIAM J. Comput. 1987; Edelsbrunner & Shah,
