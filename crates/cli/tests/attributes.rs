@@ -109,6 +109,72 @@ fn attributes_of_lines_and_points_that_triangles_do_not_have_are_said() {
     place.fail("-q --strict triangulate more.geojson -o u.gpkg", 1, "of points are left out: name");
 }
 
+/// A file of features with a column `k`, by the kind and coordinates of each; a kind alone has no geometry.
+fn kinds(features: &[(&str, &str)]) -> String {
+    let one = |(i, (kind, coordinates)): (usize, &(&str, &str))| {
+        let geometry = format!(r#"{{"type":"{kind}","coordinates":{coordinates}}}"#);
+        let geometry = if coordinates.is_empty() { "null" } else { &geometry };
+        format!(r#"{{"type":"Feature","properties":{{"k":{i}}},"geometry":{geometry}}}"#)
+    };
+    let all: Vec<String> = features.iter().enumerate().map(one).collect();
+    format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, all.join(","))
+}
+
+const SQUARE: (&str, &str) = ("Polygon", "[[[0,0],[9,0],[9,9],[0,9],[0,0]]]");
+const INNER: (&str, &str) = ("Polygon", "[[[2,2],[4,2],[4,4],[2,4],[2,2]]]");
+
+#[test]
+fn features_that_the_triangles_hide_are_told() {
+    let place = Place::new();
+    let line = ("LineString", "[[0,0],[9,9]]");
+    for (features, whose) in [
+        // A hole, and what a later one covers.
+        (vec![SQUARE, INNER], "polygons without a triangle"),
+        (vec![INNER, SQUARE], "polygons without a triangle"),
+        (vec![SQUARE, ("LineString", "[[20,0],[30,5]]")], "lines without an edge"),
+        (vec![SQUARE, line, line], "lines without an edge"),
+        (vec![INNER, SQUARE, ("Point", "[1,5]")], "polygons without a triangle, of points"),
+    ] {
+        place.file("h.geojson", kinds(&features));
+        for command in ["triangulate", "mesh --max-area 9"] {
+            let what = format!("the attributes of {whose} are left out: k");
+            place.fail(&format!("-q --strict {command} h.geojson -o h.gpkg"), 1, &what);
+            assert!(!place.path("h.gpkg").exists());
+        }
+    }
+    place.file("h.geojson", kinds(&[SQUARE, line, ("LineString", "[[20,0],[9,9],[0,9]]")]));
+    place.succeed("-q --strict triangulate h.geojson -o h.gpkg");
+    place.file("h.geojson", kinds(&[SQUARE, ("Point", "[1,5]")]));
+    place.fail("-q --strict polygons h.geojson -o h.geojsonl --to geojson", 1, "points are left out");
+}
+
+#[test]
+fn features_without_geometry_are_told() {
+    let place = Place::new();
+    let points = [("Point", "[0,0]"), ("Point", ""), ("Point", "[4,1]"), ("LineString", "[]"), SQUARE];
+    place.file("e.geojson", kinds(&points));
+    place.file(
+        "e.csv",
+        "k,wkt\n0,POINT (0 0)\n1,POINT EMPTY\n2,POINT (4 1)\n3,POLYGON EMPTY\n4,POINT (5 6)\n",
+    );
+    place.file("e.wkt", "POINT (0 0)\nPOINT EMPTY\nPOINT (4 1)\nPOINT (5 6)\nLINESTRING EMPTY\n");
+    place.file("cells.csv", "x,y\n0,0\n1,0\n0,1\n9,9\n");
+    for name in ["e.geojson", "e.csv", "e.wkt"] {
+        for line in ["voronoi", "triangulate", "nearest cells.csv --queries"] {
+            let what = format!("{name}: 2 features without geometry are left out");
+            let output = if line == "triangulate" { "o.npy" } else { "o.csv" };
+            place.fail(&format!("-q --strict {line} {name} -o {output}"), 1, &what);
+            assert!(!place.path(output).exists());
+        }
+    }
+    // Cells that are clipped away have none, in all formats of layers.
+    place.file("clip.geojson", kinds(&[INNER]));
+    place.succeed("-q voronoi cells.csv --clip clip.geojson -o c.gpkg -o c.fgb -o c.geojson");
+    for name in ["c.gpkg", "c.fgb", "c.geojson"] {
+        place.fail(&format!("-q --strict voronoi {name} -o p.csv"), 1, "2 features without geometry");
+    }
+}
+
 const MATERIALS: &str = r#"{"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"material":"clay"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}},
 {"type":"Feature","properties":{"material":"sand"},"geometry":{"type":"MultiPolygon","coordinates":[[[[2,0],[5,0],[5,2],[2,2],[2,0]]],[[[7,0],[8,0],[7,1],[7,0]]]]}}]}"#;
@@ -261,16 +327,17 @@ fn two_systems_are_an_error() {
 fn systems_are_said_and_passed_on() {
     let place = Place::new();
     place.file("p.csv", "x,y,z\n0,0,1\n4,0,2\n0,4,3\n");
-    for (line, name) in [
-        ("voronoi p.csv", "urn:ogc:def:crs:EPSG::25832"),
-        ("triangulate p.csv", "urn:ogc:def:crs:EPSG::25832"),
-        ("contours p.csv --interval 1", "urn:ogc:def:crs:EPSG::25832"),
-        ("nearest p.csv --queries p.csv", "urn:ogc:def:crs:EPSG::25832"),
-    ] {
+    let name = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837";
+    for line in
+        ["voronoi p.csv", "triangulate p.csv", "contours p.csv --interval 1", "nearest p.csv --queries p.csv"]
+    {
         place.succeed(&format!("-q --epsg 25832+7837 {line} -o o.geojson"));
         let all: Value = serde_json::from_str(&place.read("o.geojson")).expect("JSON");
         assert_eq!(all["crs"]["properties"]["name"], name, "{line}");
     }
+    // Both parts are read again.
+    place.succeed("-q triangulate o.geojson -o t.geojson");
+    assert!(place.read("t.geojson").contains(name));
     // What is said counts, whatever files tell.
     place.succeed("-q triangulate o.geojson --epsg EPSG:31467 -o t.geojson");
     assert!(place.read("t.geojson").contains("EPSG::31467"));

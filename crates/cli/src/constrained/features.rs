@@ -1,8 +1,8 @@
 //! Features of the input in its triangulation: polygons as regions, lines as edges.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
-use delone::{Constrained2, Domains2};
+use delone::{Constrained2, Domains2, EdgeId};
 use delone_io::Graph;
 
 use crate::files::Unshown;
@@ -36,12 +36,24 @@ fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
     rows
 }
 
-/// The attributes that triangles do not have: those of lines, and of points that no segment ends at.
-pub(crate) fn unshown(graph: &Graph) -> Unshown {
+/// The attributes that triangles inside do not have: those of lines, of points that no segment ends at, and of what has neither an edge nor
+/// a triangle to itself.
+pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2) -> Unshown {
+    let lines: HashSet<usize> = rows_of_lines(graph).into_iter().flatten().collect();
+    let polygons: HashSet<usize> = graph.rings.iter().filter_map(|ring| graph.row_of(ring)).collect();
+    let is_inside =
+        |e: EdgeId| inside.is_inside(e.triangle()) || inside.is_inside(c.mesh().twin(e).triangle());
+    let rows = of_lines(c, graph).unwrap_or_default();
+    let edges = c.constraint_edges().zip(rows).filter(|edge| is_inside(edge.0));
+    let shown: HashSet<usize> = edges.filter_map(|(_, row)| row).collect();
+    let triangles = c.triangle_ids().filter(|&t| inside.is_inside(t));
+    let filled: HashSet<usize> = triangles.filter_map(|t| inside.region(t)).collect();
     let mut ends = vec![false; graph.cloud.xy.len()];
     graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
     Unshown {
-        lines: rows_of_lines(graph).iter().any(Option::is_some),
+        lines: !lines.is_empty(),
+        hidden_lines: !lines.is_subset(&shown),
+        hidden_polygons: !polygons.is_subset(&filled),
         points: (0..ends.len()).any(|i| !ends[i] && graph.cloud.features.row(i).is_some()),
     }
 }

@@ -131,7 +131,7 @@ impl Constrained {
         let mut inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
         let polygons = features::claim(&triangulation, &graph, &mut inside);
-        files::heed_unshown(features::unshown(&graph));
+        files::heed_unshown(features::unshown(&triangulation, &graph, &inside));
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {

@@ -18,10 +18,14 @@ struct Known {
     unshown: Unshown,
 }
 
-/// Whether things beside the polygons of an input have attributes, which triangles do not show.
+/// Whether things of an input have attributes that triangles do not show.
 #[derive(Clone, Copy)]
 pub(crate) struct Unshown {
     pub(crate) lines: bool,
+    /// Lines that are on no edge of a triangle, or on those of other lines alone.
+    pub(crate) hidden_lines: bool,
+    /// Polygons that have no triangle to themselves.
+    pub(crate) hidden_polygons: bool,
     /// Points that are on no line.
     pub(crate) points: bool,
 }
@@ -30,7 +34,7 @@ static KNOWN: Mutex<Known> = Mutex::new(Known {
     with: None,
     names: Vec::new(),
     are_asked: false,
-    unshown: Unshown { lines: false, points: false },
+    unshown: Unshown { lines: false, hidden_lines: false, hidden_polygons: false, points: false },
 });
 
 /// Names that a message lists; more are `...`.
@@ -81,17 +85,25 @@ pub(super) fn tell(quiet: bool) {
     }
     let whose = |format: Format| {
         if !known.are_asked && !has_places(format) {
-            None
-        } else if known.with.is_none_or(|with| !format.keeps_attributes(with)) {
-            Some("the input")
-        } else if known.unshown.lines && !format.keeps_attributes(Contents::Lines) {
-            Some("lines")
-        } else {
-            known.unshown.points.then_some("points")
+            return String::new();
         }
+        if known.with.is_none_or(|with| !format.keeps_attributes(with)) {
+            return "the input".to_owned();
+        }
+        let Unshown { lines, hidden_lines, hidden_polygons, points } = known.unshown;
+        let has_lines = format.keeps_attributes(Contents::Lines);
+        let all = [
+            (hidden_polygons, "polygons without a triangle"),
+            (lines && !has_lines, "lines"),
+            (hidden_lines && has_lines, "lines without an edge"),
+            (points, "points"),
+        ];
+        let unshown: Vec<&str> = all.into_iter().filter_map(|(is_so, what)| is_so.then_some(what)).collect();
+        unshown.join(", of ")
     };
     for (path, format) in outputs() {
-        if let Some(whose) = whose(format) {
+        let whose = whose(format);
+        if !whose.is_empty() {
             let what = format!("the attributes of {whose} are left out: {}", names.join(", "));
             lost(quiet, format_args!("{}: {what}", path.display()));
         }

@@ -39,6 +39,8 @@ const PROJECTED: [&str; 2] = ["PROJCS[", "PROJCRS["];
 const GEOGRAPHIC: [&str; 3] = ["GEOGCS[", "GEOGCRS[", "GEODCRS["];
 const LOCAL: &str = "LOCAL_CS[";
 const VERTICAL: [&str; 4] = ["VERT_CS[", "VERTCRS[", "VERTICALCRS[", "VERTCS["];
+/// How the names of systems of two parts begin.
+const PARTS: &str = "urn:ogc:def:crs,";
 
 impl Crs {
     /// A system by its number.
@@ -93,8 +95,8 @@ impl Crs {
         }
     }
 
-    /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for; or
-    /// well-known text, which some files have as a name.
+    /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) `urn:ogc:def:crs:EPSG::25832` or
+    /// `urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837` stands for; or well-known text, which some files have as a name.
     pub fn of_name(name: &str) -> Option<Self> {
         let name = name.trim();
         if name.is_empty() {
@@ -104,8 +106,16 @@ impl Crs {
             return Self::of_wkt(name);
         }
         if name.to_ascii_uppercase().contains("EPSG") {
-            let number = name.rsplit([':', '/']).next().unwrap_or_default();
-            let (number, vertical) = number.split_once('+').unwrap_or((number, ""));
+            let last = |text: &str| text.rsplit([':', '/']).next().unwrap_or_default().to_owned();
+            let (number, vertical) = match name.split_once(PARTS).and_then(|(_, parts)| parts.split_once(','))
+            {
+                Some((horizontal, vertical)) => (last(horizontal), last(vertical)),
+                None => {
+                    let number = last(name);
+                    let (number, vertical) = number.split_once('+').unwrap_or((&number, ""));
+                    (number.to_owned(), vertical.to_owned())
+                }
+            };
             let horizontal = number.parse().ok().map(Self::of_epsg)?;
             return Some(Self { vertical: vertical.parse().ok(), ..horizontal });
         }
@@ -144,9 +154,13 @@ impl Crs {
         self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")
     }
 
-    /// The name that other programs understand: by its number, or else its definition.
+    /// The name that other programs understand: by its number, and that of its heights, or else its definition.
     pub(crate) fn known_name(&self) -> Option<String> {
-        let by_number = self.epsg.map(|number| format!("urn:ogc:def:crs:EPSG::{number}"));
+        let vertical = self.vertical.filter(|_| !self.epsg.is_some_and(codes::is_compound));
+        let by_number = self.epsg.map(|number| match vertical {
+            Some(vertical) => format!("{PARTS}crs:EPSG::{number},crs:EPSG::{vertical}"),
+            None => format!("urn:ogc:def:crs:EPSG::{number}"),
+        });
         by_number.or_else(|| self.wkt.clone())
     }
 }
@@ -231,6 +245,11 @@ mod tests {
         assert_eq!(Crs::of_name("EPSG:"), None);
         let both = Crs::of_name("EPSG:25832+7837").expect("two");
         assert_eq!((both.epsg, both.vertical), (Some(25832), Some(7837)));
+        let named = both.known_name().expect("a name");
+        assert_eq!(named, "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837");
+        assert_eq!(Crs::of_name(&named), Some(both));
+        let whole = Crs { vertical: Some(5709), ..Crs::of_epsg(7415) };
+        assert_eq!(whole.known_name().as_deref(), Some("urn:ogc:def:crs:EPSG::7415"));
         assert_eq!(Crs::of_epsg(7405).is_geographic, None, "it is compound");
     }
 }

@@ -25,6 +25,9 @@ pub(crate) struct Shapes {
     table: Table,
     /// The row of each position, where there are rows.
     rows: Vec<u32>,
+    /// Where the positions of the last feature begin, and how many features before it have none.
+    begin: Option<usize>,
+    empty: usize,
     /// Attributes are kept, not their names alone.
     keeps_attributes: bool,
     /// The system of coordinates, where the file tells.
@@ -59,6 +62,11 @@ enum Kind {
     },
 }
 
+/// The loss of features that are nowhere, if there are any.
+pub(super) fn without_geometry(count: usize) -> Option<String> {
+    (count > 0).then(|| format!("{count} features without geometry are left out"))
+}
+
 impl Shapes {
     /// None yet, of features whose attributes are kept or are not.
     pub(super) fn new(keeps_attributes: bool) -> Self {
@@ -67,9 +75,23 @@ impl Shapes {
 
     /// Begins a feature, whose attributes and geometries follow.
     pub(super) fn feature(&mut self) {
+        self.end_feature();
+        self.begin = Some(self.xy.len());
         if self.keeps_attributes {
             self.table.begin();
         }
+    }
+
+    fn end_feature(&mut self) {
+        self.empty += usize::from(self.begin == Some(self.xy.len()));
+        self.begin = None;
+    }
+
+    /// What the file has and these lack.
+    fn losses(&mut self) -> Vec<String> {
+        self.end_feature();
+        self.losses.extend(without_geometry(self.empty));
+        std::mem::take(&mut self.losses)
     }
 
     /// Gives the feature an attribute.
@@ -149,10 +171,11 @@ impl Shapes {
     }
 
     /// The rings of all polygons.
-    pub(crate) fn rings(self) -> Rings {
+    pub(crate) fn rings(mut self) -> Rings {
+        let losses = self.losses();
         let rings = self.parts.iter().filter(|part| matches!(part.kind, Kind::Ring { .. }));
         let rings = rings.map(|part| self.xy[part.positions.clone()].to_vec()).collect();
-        Rings { rings, crs: self.crs, losses: self.losses }
+        Rings { rings, crs: self.crs, losses }
     }
 
     /// All positions as points.
@@ -166,9 +189,10 @@ impl Shapes {
     }
 
     fn points(mut self) -> Cloud {
+        let losses = self.losses();
         let (xy, heights) = self.positions();
         let features = Features::new(self.table, self.rows);
-        let (crs, remarks, losses) = (self.crs, self.remarks, self.losses);
+        let (crs, remarks) = (self.crs, self.remarks);
         let mut cloud = Cloud { xy, crs, features, remarks, losses, ..Cloud::default() };
         match heights {
             Heights::None => {}

@@ -65,18 +65,19 @@ pub(crate) fn read(
             deleted += 1;
             continue;
         }
+        let in_record = |what: String| wrong(format!("record {number}: {what}"));
+        let mut record = Record { rest: &content };
+        let kind = record.count().map_err(|what| in_record(what.to_owned()))?;
+        if kind == PATCHES {
+            patches += 1;
+            continue;
+        }
         shapes.feature();
         match &rows {
             Some(rows) if state == State::There => rows.take(&mut shapes),
             _ => without += usize::from(rows.is_some()),
         }
-        let mut record = Record { rest: &content };
-        let kind = record.count().map_err(|what| wrong(format!("record {number}: {what}")))?;
-        if kind == PATCHES {
-            patches += 1;
-            continue;
-        }
-        record.take(kind, &mut shapes).map_err(|what| wrong(format!("record {number}: {what}")))?;
+        record.take(kind, &mut shapes).map_err(in_record)?;
     }
     let losses = [
         (patches, "multipatches are left out: make polygons of them"),

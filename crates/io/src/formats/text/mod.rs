@@ -16,7 +16,7 @@ use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use self::kept::Kept;
 use super::lines::Lines;
-use super::shapes::{Heights, Shapes};
+use super::shapes::{Heights, Shapes, without_geometry};
 use super::wkt;
 use crate::chunks::Chunks;
 use crate::error::excerpt;
@@ -57,6 +57,7 @@ pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Resu
     graph.cloud.crs = cloud.crs;
     graph.cloud.features = cloud.features;
     graph.cloud.remarks.splice(0..0, cloud.remarks);
+    graph.cloud.losses.extend(cloud.losses);
     Ok(graph)
 }
 
@@ -163,6 +164,8 @@ struct Table<'a> {
     kept: Kept,
     /// Lines and polygons whose corners are among the points.
     parts: usize,
+    /// Rows whose geometry is empty.
+    empty: usize,
     /// How many points were given away.
     before: usize,
     columns: Option<Columns>,
@@ -189,6 +192,7 @@ impl<'a> Table<'a> {
             shapes,
             kept,
             parts: 0,
+            empty: 0,
             before: 0,
             columns,
             width: 0,
@@ -319,7 +323,9 @@ impl<'a> Table<'a> {
             let [x, y, z] = point;
             self.cloud.push([x, y], z);
         }
-        self.kept.points(self.cloud.xy.len() + self.shapes.len() - before);
+        let points = self.cloud.xy.len() + self.shapes.len() - before;
+        self.empty += usize::from(points == 0);
+        self.kept.points(points);
         Ok(())
     }
 
@@ -394,6 +400,7 @@ impl<'a> Table<'a> {
         if self.columns.is_none() && self.left_out > 0 {
             self.cloud.remarks.push(format!("all lines, {} of them, are remarks", self.left_out));
         }
+        self.cloud.losses.extend(without_geometry(self.empty));
         self.cloud.features = self.kept.features();
         Ok((self.cloud, self.shapes))
     }
