@@ -51,8 +51,7 @@ pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2) -> Uns
     let mut ends = vec![false; graph.cloud.xy.len()];
     graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
     Unshown {
-        lines: !lines.is_empty(),
-        hidden_lines: !lines.is_subset(&shown),
+        lines: (!lines.is_empty()).then(|| !lines.is_subset(&shown)),
         hidden_polygons: !polygons.is_subset(&filled),
         points: (0..ends.len()).any(|i| !ends[i] && graph.cloud.features.row(i).is_some()),
     }

@@ -21,9 +21,8 @@ struct Known {
 /// Whether things of an input have attributes that triangles do not show.
 #[derive(Clone, Copy)]
 pub(crate) struct Unshown {
-    pub(crate) lines: bool,
-    /// Lines that are on no edge of a triangle, or on those of other lines alone.
-    pub(crate) hidden_lines: bool,
+    /// Lines; true if some are on no edge of a triangle, or on those of other lines alone.
+    pub(crate) lines: Option<bool>,
     /// Polygons that have no triangle to themselves.
     pub(crate) hidden_polygons: bool,
     /// Points that are on no line.
@@ -34,7 +33,7 @@ static KNOWN: Mutex<Known> = Mutex::new(Known {
     with: None,
     names: Vec::new(),
     are_asked: false,
-    unshown: Unshown { lines: false, hidden_lines: false, hidden_polygons: false, points: false },
+    unshown: Unshown { lines: None, hidden_polygons: false, points: false },
 });
 
 /// Names that a message lists; more are `...`.
@@ -90,12 +89,12 @@ pub(super) fn tell(quiet: bool) {
         if known.with.is_none_or(|with| !format.keeps_attributes(with)) {
             return "the input".to_owned();
         }
-        let Unshown { lines, hidden_lines, hidden_polygons, points } = known.unshown;
+        let Unshown { lines, hidden_polygons, points } = known.unshown;
         let has_lines = format.keeps_attributes(Contents::Lines);
         let all = [
             (hidden_polygons, "polygons without a triangle"),
-            (lines && !has_lines, "lines"),
-            (hidden_lines && has_lines, "lines without an edge"),
+            (lines.is_some() && !has_lines, "lines"),
+            (lines == Some(true) && has_lines, "lines without an edge"),
             (points, "points"),
         ];
         let unshown: Vec<&str> = all.into_iter().filter_map(|(is_so, what)| is_so.then_some(what)).collect();

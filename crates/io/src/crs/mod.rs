@@ -106,18 +106,11 @@ impl Crs {
             return Self::of_wkt(name);
         }
         if name.to_ascii_uppercase().contains("EPSG") {
-            let last = |text: &str| text.rsplit([':', '/']).next().unwrap_or_default().to_owned();
-            let (number, vertical) = match name.split_once(PARTS).and_then(|(_, parts)| parts.split_once(','))
-            {
-                Some((horizontal, vertical)) => (last(horizontal), last(vertical)),
-                None => {
-                    let number = last(name);
-                    let (number, vertical) = number.split_once('+').unwrap_or((&number, ""));
-                    (number.to_owned(), vertical.to_owned())
-                }
-            };
-            let horizontal = number.parse().ok().map(Self::of_epsg)?;
-            return Some(Self { vertical: vertical.parse().ok(), ..horizontal });
+            let number = |text: &str| text.rsplit([':', '/']).next()?.parse().ok();
+            let parts = name.split_once(PARTS).and_then(|(_, parts)| parts.split_once(','));
+            let (horizontal, vertical) = parts.or_else(|| name.rsplit_once('+')).unwrap_or((name, ""));
+            let horizontal = number(horizontal).map(Self::of_epsg)?;
+            return Some(Self { vertical: number(vertical), ..horizontal });
         }
         match name.rsplit(':').next() {
             Some("CRS84") => Some(Self { name: Some("OGC:CRS84".to_owned()), ..Self::default() }),
