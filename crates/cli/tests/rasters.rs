@@ -5,7 +5,7 @@ use std::fs;
 use delone_generators::Kind;
 
 use crate::dtm::raster;
-use crate::place::Place;
+use crate::place::{Place, text};
 
 /// Points exactly on a line are at the height of the line, whatever the method and wherever the line is cut.
 #[test]
@@ -155,4 +155,62 @@ fn duplicates_have_one_rule() {
     }
     place.file("s.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n");
     place.fail("triangulate s.csv --dim 3 --duplicates mean -o t.npy", 2, "--duplicates is for heights");
+}
+
+#[test]
+fn other_bands_pages_and_masks_beside_are_told() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 50 --seed 1 -o p.csv");
+    place.file("h.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n9,9,4\n");
+    place.succeed("-q dtm h.csv --cell 1 -o one.tif");
+    place.succeed("-q --strict triangulate one.tif -o one.ply");
+    place.file("one.tif.msk", "a mask");
+    place.fail(
+        "-q --strict triangulate one.tif -o two.ply",
+        1,
+        "one.tif.msk: a mask beside the raster is not read",
+    );
+    place.fail("-q --strict relief one.tif -o two.tif", 1, "a mask beside the raster is not read");
+    // A pixel of three bands, uncompressed: a heading, a directory and its values.
+    let mut tiff = b"II*\0\x08\0\0\0".to_vec();
+    let entries: [(u16, u16, u32, u32); 10] = [
+        (256, 3, 1, 1),
+        (257, 3, 1, 1),
+        (258, 3, 1, 8),
+        (259, 3, 1, 1),
+        (262, 3, 1, 1),
+        (273, 4, 1, 134),
+        (277, 3, 1, 3),
+        (278, 3, 1, 1),
+        (279, 4, 1, 3),
+        (339, 3, 1, 1),
+    ];
+    tiff.extend(10_u16.to_le_bytes());
+    for (tag, kind, count, value) in entries {
+        tiff.extend(tag.to_le_bytes());
+        tiff.extend(kind.to_le_bytes());
+        tiff.extend(count.to_le_bytes());
+        tiff.extend(value.to_le_bytes());
+    }
+    tiff.extend([0; 4]);
+    tiff.extend([7, 8, 9]);
+    place.file("three.tif", &tiff);
+    let said = text(&place.run("triangulate three.tif -o three.ply").stderr);
+    assert!(said.contains("note: three.tif: of 3 bands the first is read"), "{said}");
+    place.fail("-q --strict triangulate three.tif -o t.ply", 1, "of 3 bands the first is read");
+}
+
+#[test]
+fn systems_of_heights_are_not_lost_in_silence() {
+    let place = Place::new();
+    place.file("h.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
+    let names = ["ply", "obj", "fgb", "wkb", "geojson"].map(|kind| format!("-o o.{kind}")).join(" ");
+    let said = text(&place.run(&format!("triangulate h.csv --epsg 25832+7837 {names}")).stderr);
+    assert!(
+        said.contains("note: o.ply, o.obj, o.fgb, o.wkb: nothing in it says that its heights are EPSG:7837"),
+        "{said}"
+    );
+    place.fail("-q --strict triangulate h.csv --epsg 25832+7837 -o s.ply", 1, "its heights are EPSG:7837");
+    place.succeed("-q --strict triangulate h.csv --epsg 25832+7837 -o s.geojson");
+    place.succeed("-q --strict triangulate h.csv --epsg 7415 -o s.ply");
 }

@@ -198,6 +198,23 @@ impl Format {
         }
     }
 
+    /// Whether files of this format lack the system of heights that `crs` has beside the horizontal one.
+    ///
+    /// ```
+    /// use delone_io::{Crs, Format};
+    ///
+    /// let heights = Crs { vertical: Some(7837), ..Crs::of_epsg(25832) };
+    /// assert!(Format::Ply.lacks_heights(&heights) && !Format::GeoJson.lacks_heights(&heights));
+    /// ```
+    pub fn lacks_heights(self, crs: &Crs) -> bool {
+        let is_apart = crs.vertical.is_some() && !crs.is_compound();
+        match self {
+            Self::FlatGeobuf | Self::GeoPackage => is_apart && crs.wkt.is_none(),
+            Self::Wkb | Self::Ply | Self::Obj => is_apart && crs.epsg.is_some(),
+            _ => false,
+        }
+    }
+
     /// Whether files of this format have the attributes of the input beside such contents.
     ///
     /// ```

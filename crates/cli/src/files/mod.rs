@@ -112,7 +112,20 @@ pub(crate) fn open(
 ) -> Result<(Box<dyn Source>, Phase), Failure> {
     let (source, phase) = open_raw(path, what, quiet)?;
     let source = decompressed(source, format).map_err(|error| wrong(path, format, &error))?;
+    if format == Format::Tiff {
+        heed_mask(path, quiet);
+    }
     Ok((source, phase))
+}
+
+/// Tells of a mask in a file beside a raster, as GDAL writes them: it is not read.
+fn heed_mask(path: &Path, quiet: bool) {
+    let mut mask = path.as_os_str().to_owned();
+    mask.push(".msk");
+    if Path::new(&mask).is_file() {
+        let what = "a mask beside the raster is not read: gdal_translate --config GDAL_TIFF_INTERNAL_MASK YES puts it inside";
+        lost(quiet, format_args!("{}: {what}", Path::new(&mask).display()));
+    }
 }
 
 fn open_raw(path: &Path, what: &'static str, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
@@ -254,7 +267,7 @@ pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Ra
     let (source, _phase) = open(path, format, READING, quiet)?;
     let mut raster = delone_io::read_raster(source, format).map_err(|error| wrong(path, format, &error))?;
     systems::heed(&mut raster.crs, path, Role::Input)?;
-    raster.remarks.iter().for_each(|remark| note(quiet, remark));
+    raster.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     Ok(raster)
 }
 

@@ -86,6 +86,13 @@ pub(super) fn tell(quiet: bool) {
     if !silent.is_empty() {
         lost(quiet, format_args!("{silent}: nothing in it says that its coordinates are {crs}"));
     }
+    let flat = outputs.iter().filter(|(_, format)| format.lacks_heights(&crs));
+    let flat = flat.map(|(path, _)| path.display().to_string()).collect::<Vec<_>>().join(", ");
+    if !flat.is_empty()
+        && let Some(number) = crs.vertical
+    {
+        lost(quiet, format_args!("{flat}: nothing in it says that its heights are EPSG:{number}"));
+    }
     let wrong = names(Said::Otherwise);
     if !wrong.is_empty() {
         let what = format!(

@@ -142,6 +142,11 @@ impl Crs {
         }
     }
 
+    /// Whether its number stands for a horizontal and a vertical system together.
+    pub(crate) fn is_compound(&self) -> bool {
+        self.epsg.is_some_and(codes::is_compound)
+    }
+
     /// Whether it is longitude and latitude as GeoJSON has them.
     pub(crate) fn is_plain_degrees(&self) -> bool {
         self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")
@@ -149,7 +154,7 @@ impl Crs {
 
     /// The name that other programs understand: by its number, and that of its heights, or else its definition.
     pub(crate) fn known_name(&self) -> Option<String> {
-        let vertical = self.vertical.filter(|_| !self.epsg.is_some_and(codes::is_compound));
+        let vertical = self.vertical.filter(|_| !self.is_compound());
         let by_number = self.epsg.map(|number| match vertical {
             Some(vertical) => format!("{PARTS}crs:EPSG::{number},crs:EPSG::{vertical}"),
             None => format!("urn:ogc:def:crs:EPSG::{number}"),

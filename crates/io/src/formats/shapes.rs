@@ -87,7 +87,7 @@ impl Shapes {
         self.begin = None;
     }
 
-    /// What the file has and these lack.
+    /// Contents of the file that these shapes lack.
     fn losses(&mut self) -> Vec<String> {
         self.end_feature();
         self.losses.extend(without_geometry(self.empty));

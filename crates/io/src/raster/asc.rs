@@ -132,7 +132,7 @@ impl Head {
         }
         corner[1] += rows as f64 * step[1];
         let grid = placed(corner, [step[0], -step[1]], columns, rows)?;
-        Ok(Raster { grid, crs: None, values: Vec::new(), remarks: Vec::new() })
+        Ok(Raster { grid, crs: None, values: Vec::new(), losses: Vec::new() })
     }
 }
 

@@ -213,8 +213,8 @@ pub struct Raster {
     pub crs: Option<Crs>,
     /// The values row by row as the file has them; NaN where there is no data.
     pub values: Vec<f64>,
-    /// Remarks on how the file was read.
-    pub remarks: Vec<String>,
+    /// Contents of the file that the values lack: other pages, other bands.
+    pub losses: Vec<String>,
 }
 
 impl Raster {
@@ -230,8 +230,7 @@ impl Raster {
     /// # Ok::<(), delone_io::Error>(())
     /// ```
     pub fn into_points(self) -> Cloud {
-        let mut cloud =
-            Cloud { crs: self.crs, z: Some(Vec::new()), remarks: self.remarks, ..Cloud::default() };
+        let mut cloud = Cloud { crs: self.crs, z: Some(Vec::new()), losses: self.losses, ..Cloud::default() };
         let rows = self.values.chunks_exact(self.grid.columns().max(1));
         for (row, values) in rows.enumerate() {
             for (column, &value) in values.iter().enumerate().filter(|cell| !cell.1.is_nan()) {

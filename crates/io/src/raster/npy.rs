@@ -42,5 +42,5 @@ impl<W: Write> Writer<W> {
 /// Reads an array.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     let (rows, columns, values) = npy::read_grid(source)?;
-    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values, remarks: Vec::new() })
+    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values, losses: Vec::new() })
 }

@@ -21,6 +21,8 @@ const MASK: u16 = 4;
 pub(super) struct Page {
     pub(super) columns: usize,
     pub(super) rows: usize,
+    /// Numbers of a cell.
+    pub(super) samples: usize,
     /// Numbers of a cell that are together.
     pub(super) bands: usize,
     pub(super) bits: u16,
@@ -77,6 +79,7 @@ impl Page {
         let page = Self {
             columns,
             rows,
+            samples,
             bands: if is_planar { 1 } else { samples },
             bits,
             sample_format: number(&mut tags, tag::SAMPLE_FORMAT, 1)?,

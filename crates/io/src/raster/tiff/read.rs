@@ -52,7 +52,7 @@ struct File {
     /// The image of heights, and the mask of it.
     image: Directory,
     mask: Option<Directory>,
-    remarks: Vec<String>,
+    losses: Vec<String>,
 }
 
 impl File {
@@ -91,9 +91,9 @@ impl File {
         };
         let all = size(&image);
         let mask = masks.into_iter().find(|mask| size(mask) == all);
-        let remarks =
+        let losses =
             if images > 1 { vec![format!("of {images} pages the first is read")] } else { Vec::new() };
-        Ok(Self { decoder, length, image, mask, remarks })
+        Ok(Self { decoder, length, image, mask, losses })
     }
 
     fn read(mut self) -> Result<Raster, Error> {
@@ -120,7 +120,10 @@ impl File {
                 Ok(())
             })?;
         }
-        Ok(Raster { grid, crs, values, remarks: self.remarks })
+        if page.samples > 1 {
+            self.losses.push(format!("of {} bands the first is read", page.samples));
+        }
+        Ok(Raster { grid, crs, values, losses: self.losses })
     }
 
     /// Where the cells are, and their system.
