@@ -149,10 +149,10 @@ fn parts_that_are_left_out_have_no_data_or_zero() {
 fn the_first_page_counts_and_overviews_do_not() {
     let page = |value| image(1, 1, vec![vec![value]]);
     let raster = read(&[page(1).with(254, 1), page(2), page(3).with(254, 1)]).expect("a raster");
-    assert_eq!((raster.values, raster.remarks), (vec![2.0], Vec::<String>::new()));
+    assert_eq!((raster.values, raster.losses), (vec![2.0], Vec::<String>::new()));
     let raster = read(&[page(1), page(2).with(254, 2), page(3)]).expect("a raster");
     assert_eq!(
-        (&raster.values[..], &raster.remarks[..]),
+        (&raster.values[..], &raster.losses[..]),
         (&[1.0][..], &["of 3 pages the first is read".to_owned()][..])
     );
     assert_eq!(raster.into_points().remarks, ["of 3 pages the first is read"]);
