@@ -177,8 +177,11 @@ impl Constrained {
         keep_concavities: bool,
     ) -> PyResult<Parts<'py>> {
         let (holes, regions): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (coordinates(&holes)?, coordinates(&regions)?);
-        let seed = |at| RegionSeed2 { at, attribute: 0.0, max_area: None };
-        let seeds = Seeds2 { holes, regions: regions.into_iter().map(seed).collect(), keep_concavities };
+        let seed = RegionSeed2::new;
+        let seeds = Seeds2::default()
+            .holes(holes)
+            .regions(regions.into_iter().map(seed).collect())
+            .keep_concavities(keep_concavities);
         let fill = fill.to_owned();
         let (of, domains) = self.0.read(py)?.make(py, move |this| {
             let fill = match fill.as_str() {

@@ -284,16 +284,14 @@ impl<'py> Wishes<'py> {
 
     /// Separates the plain options from the rest.
     fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>)> {
-        let region =
-            |row: &[f64]| RegionSeed2 { at: [row[0], row[1]], attribute: 0.0, max_area: Some(row[2]) };
+        let region = |row: &[f64]| RegionSeed2::new([row[0], row[1]]).max_area(row[2]);
         if self.regions.shape()[1] != 3 {
             return Err(PyValueError::new_err("regions are rows of three numbers"));
         }
-        let seeds = Seeds2 {
-            holes: coordinates(&self.holes)?,
-            regions: self.regions.as_slice()?.chunks_exact(3).map(region).collect(),
-            keep_concavities: self.keep_concavities,
-        };
+        let seeds = Seeds2::default()
+            .holes(coordinates(&self.holes)?)
+            .regions(self.regions.as_slice()?.chunks_exact(3).map(region).collect())
+            .keep_concavities(self.keep_concavities);
         let keep = match self.keep.as_str() {
             "nothing" => Keep::Nothing,
             "border" => Keep::Border,

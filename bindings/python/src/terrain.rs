@@ -46,7 +46,7 @@ struct Keep<'a> {
 impl<'a> Keep<'a> {
     fn of<T: Triangular>(d: &T, rows: &'a [i32], mask: Option<&'a [bool]>, longest: Longest) -> Self {
         let trim = longest.map(|(longest, is_anywhere)| {
-            let border = Border { is_anywhere, ..Border::long_edges(Some(longest)) };
+            let border = Border::long_edges(Some(longest)).anywhere(is_anywhere);
             Trim::along_border(d, &border, |_| true)
         });
         Self { rows, mask, trim }

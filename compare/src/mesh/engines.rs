@@ -49,7 +49,7 @@ pub const ENGINES: &[Engine] = &[
 ];
 
 fn delone(task: &Task) -> Result<Refined, String> {
-    let seeds = Seeds2 { holes: task.holes.clone(), ..Seeds2::default() };
+    let seeds = Seeds2::default().holes(task.holes.clone());
     let refinement = Refinement::new().min_angle(task.angle).fill(Fill::Seeds(&seeds));
     let (time, result) = timed(|| {
         let mut c = Constrained2::from_parts(&task.points, &task.segments)?;

@@ -57,7 +57,7 @@ impl Input {
             Some(holes) => holes,
             None => seeds_of_holes(&c)?,
         };
-        let seeds = Seeds2 { holes: holes.clone(), ..Seeds2::default() };
+        let seeds = Seeds2::default().holes(holes.clone());
         let domains = c.domains(&Fill::Seeds(&seeds)).map_err(|error| error.to_string())?;
         let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
         let mut index = vec![usize::MAX; points.len()];

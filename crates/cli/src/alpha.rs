@@ -205,7 +205,7 @@ impl Surface {
     /// Of a shape; with corners more than once, if sheets that touch are to be apart.
     fn of(alpha: &Alpha<3>, value: f64, apart: bool) -> Self {
         if apart {
-            let Manifold3 { vertices, triangles } = alpha.manifold(value);
+            let Manifold3 { vertices, triangles, .. } = alpha.manifold(value);
             return Self { corners: vertices, faces: triangles };
         }
         let outline = alpha.outline(value);

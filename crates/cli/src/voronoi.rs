@@ -67,7 +67,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     }
     if args.relax > 0 {
         let _phase = Phase::start(quiet, "relaxing");
-        let relaxation = Relaxation2 { steps: args.relax, tolerance: args.tolerance };
+        let relaxation = Relaxation2::default().steps(args.relax).tolerance(args.tolerance);
         let mut last = (0, 0.0);
         let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
         let points =

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hole = vec![[0.4, 0.2], [0.6, 0.2], [0.5, 0.4]];
     let region = Region2::polygon(&[outer, hole])?;
     let sites = Delaunay2::from_points(&Kind::Uniform.points(400, 1))?;
-    let sites = Relaxation2 { steps: 40, tolerance: 1e-3 }.run(&sites, &region, |_, _| {})?;
+    let sites = Relaxation2::default().steps(40).tolerance(1e-3).run(&sites, &region, |_, _| {})?;
     let relaxed = Delaunay2::from_points(&sites)?;
     let cells = relaxed.voronoi().clip(&region);
     let mut picture = Picture::new([0.0, 0.0], [1.0, 1.0]);

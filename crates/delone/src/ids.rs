@@ -63,7 +63,7 @@ impl fmt::Debug for VertexId {
     }
 }
 
-/// A point that equals an earlier one and is no vertex.
+/// A point that equals an earlier one and is no vertex. It is a pair, and no field will be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Duplicate {
     /// The index of the point.
@@ -72,7 +72,7 @@ pub struct Duplicate {
     pub vertex: VertexId,
 }
 
-/// The outcome of an insertion.
+/// The outcome of an insertion. A point is a new vertex or equals one, so a match may name both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inserted {
     /// It is a vertex now.

@@ -176,7 +176,7 @@ pub(crate) fn check_in_space<P: Position3>(points: &[P]) -> Result<(), Error> {
     check_finite(points.iter().map(Position3::xyz))
 }
 
-/// The smallest box around points, axis by axis.
+/// The smallest box around points, axis by axis. Two corners are all there is to a box: no field will be added.
 ///
 /// ```
 /// let bounds = delone::Bounds::of([[0.0, 3.0], [2.0, 1.0]]);

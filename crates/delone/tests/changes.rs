@@ -19,14 +19,9 @@ fn strategies() -> [Locate; 8] {
         Locate::Walk(Walk::Visibility),
         Locate::Walk(Walk::Straight),
         Locate::JumpAndWalk(JumpAndWalk::default()),
-        Locate::Hierarchy(Hierarchy { ratio: 2.5, smallest_level: 3, ..Hierarchy::default() }),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, ratio: 4.0, ..Hierarchy::only_levels() }),
-        Locate::Hierarchy(Hierarchy {
-            ratio: 1.25,
-            smallest_level: 0,
-            walk: Some(Walk::Visibility),
-            ..Hierarchy::default()
-        }),
+        Locate::Hierarchy(Hierarchy::default().ratio(2.5).smallest_level(3)),
+        Locate::Hierarchy(Hierarchy::only_levels().nearest(Nearest::Exact).ratio(4.0)),
+        Locate::Hierarchy(Hierarchy::default().ratio(1.25).smallest_level(0).walk(Walk::Visibility)),
         Locate::DelaunayTree,
     ]
 }
@@ -230,12 +225,12 @@ fn errors_change_nothing() {
 fn parameters_out_of_range_are_refused() {
     let hierarchy = Hierarchy::default();
     for (locate, name) in [
-        (Locate::Hierarchy(Hierarchy { ratio: 1.0, ..hierarchy }), "ratio"),
-        (Locate::Hierarchy(Hierarchy { ratio: f64::NAN, ..hierarchy }), "ratio"),
-        (Locate::Hierarchy(Hierarchy { levels: Some(0), ..hierarchy }), "levels"),
-        (Locate::Hierarchy(Hierarchy { rho: 0.0, ..hierarchy }), "rho"),
-        (Locate::JumpAndWalk(JumpAndWalk { rho: -1.0, ..JumpAndWalk::default() }), "rho"),
-        (Locate::JumpAndWalk(JumpAndWalk { sample: Some(0), ..JumpAndWalk::default() }), "sample"),
+        (Locate::Hierarchy(hierarchy.ratio(1.0)), "ratio"),
+        (Locate::Hierarchy(hierarchy.ratio(f64::NAN)), "ratio"),
+        (Locate::Hierarchy(hierarchy.levels(0)), "levels"),
+        (Locate::Hierarchy(hierarchy.rho(0.0)), "rho"),
+        (Locate::JumpAndWalk(JumpAndWalk::default().rho(-1.0)), "rho"),
+        (Locate::JumpAndWalk(JumpAndWalk::default().sample(0)), "sample"),
     ] {
         let error = Delaunay2::with_strategy(locate).map(|_| ()).expect_err("out of range");
         assert!(error.to_string().starts_with(name), "{error}");

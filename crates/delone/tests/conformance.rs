@@ -19,7 +19,7 @@ fn algorithms() -> Vec<Algorithm2> {
 
 /// Every strategy of location, in its variants.
 fn strategies() -> Vec<Locate> {
-    let steep = Hierarchy { ratio: 3.0, smallest_level: 2, seed: 9, ..Hierarchy::default() };
+    let steep = Hierarchy::default().ratio(3.0).smallest_level(2).seed(9);
     vec![
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
@@ -29,8 +29,8 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(Hierarchy::only_levels()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, walk: Some(Walk::Visibility), ..steep }),
+        Locate::Hierarchy(steep.nearest(Nearest::Exact).levels(3)),
+        Locate::Hierarchy(steep.nearest(Nearest::InCircle).walk(Walk::Visibility)),
         Locate::History,
         Locate::Stars,
         Locate::DelaunayTree,

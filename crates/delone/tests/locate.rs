@@ -11,25 +11,21 @@ use delone_oracle::exact;
 use delone_oracle::nearest::compare_segments;
 
 fn strategies() -> Vec<Locate> {
-    let steep = Hierarchy { ratio: 3.0, smallest_level: 2, ..Hierarchy::default() };
+    let steep = Hierarchy::default().ratio(3.0).smallest_level(2);
     vec![
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
         Locate::Walk(Walk::Stochastic { seed: 4 }),
         Locate::Walk(Walk::Straight),
         Locate::JumpAndWalk(JumpAndWalk::default()),
-        Locate::JumpAndWalk(JumpAndWalk { rho: 1e9, with_replacement: true, ..JumpAndWalk::default() }),
-        Locate::JumpAndWalk(JumpAndWalk { sample: Some(usize::MAX), ..JumpAndWalk::default() }),
-        Locate::JumpAndWalk(JumpAndWalk { sample: Some(1), seed: 3, ..JumpAndWalk::default() }),
+        Locate::JumpAndWalk(JumpAndWalk::default().rho(1e9).with_replacement(true)),
+        Locate::JumpAndWalk(JumpAndWalk::default().sample(usize::MAX)),
+        Locate::JumpAndWalk(JumpAndWalk::default().sample(1).seed(3)),
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, walk: Some(Walk::Visibility), ..steep }),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, ..steep }),
-        Locate::Hierarchy(Hierarchy {
-            walk: Some(Walk::Stochastic { seed: 2 }),
-            with_replacement: true,
-            ..steep
-        }),
+        Locate::Hierarchy(steep.nearest(Nearest::Exact).walk(Walk::Visibility)),
+        Locate::Hierarchy(steep.nearest(Nearest::InCircle)),
+        Locate::Hierarchy(steep.walk(Walk::Stochastic { seed: 2 }).with_replacement(true)),
         Locate::History,
         Locate::Stars,
         Locate::DelaunayTree,

@@ -215,7 +215,7 @@ const PLANE: &[Operation<2>] = &[
         let unit = set.unit;
         let region = Region2::rectangle([0.0, 0.0], [unit, unit]).expect("a rectangle");
         let mut outcome = Outcome::default();
-        let relaxed = Relaxation2 { steps: 1, tolerance: 0.0 }.run(&delaunay(set), &region, |_, _| {});
+        let relaxed = Relaxation2::default().steps(1).tolerance(0.0).run(&delaunay(set), &region, |_, _| {});
         relaxed.expect("a tolerance").into_iter().zip(&set.points).for_each(|(p, q)| {
             p.into_iter().for_each(|x| outcome.measure(&[*q], x, 1));
         });

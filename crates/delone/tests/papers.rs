@@ -39,7 +39,7 @@ fn near(value: f64, expected: f64, tolerance: f64) {
 #[test]
 fn jump_and_walk_with_32_samples() {
     for (n, paper) in [(3_200, 36.0), (32_000, 50.0)] {
-        let d = located(n, Locate::JumpAndWalk(JumpAndWalk { sample: Some(32), ..JumpAndWalk::default() }));
+        let d = located(n, Locate::JumpAndWalk(JumpAndWalk::default().sample(32)));
         let visited = mean(&d, |work| work.visited);
         // Two more than crossings: the triangles turned through at the start, two and a half, where less is crossed.
         near(visited, 2.16 * (n as f64).sqrt() / (2.0 * 33f64.sqrt()) + 2.0, 0.1);
@@ -52,7 +52,7 @@ fn jump_and_walk_with_32_samples() {
 #[test]
 fn jump_and_walk_grows_with_the_cube_root() {
     let cost = |n: usize, sample| {
-        let d = located(n, Locate::JumpAndWalk(JumpAndWalk { sample, ..JumpAndWalk::default() }));
+        let d = located(n, Locate::JumpAndWalk(JumpAndWalk::default().sample(sample)));
         mean(&d, |work| work.visited + work.compared)
     };
     for n in [1_000, 8_000, 64_000] {
@@ -92,7 +92,7 @@ fn jump_and_walk_at_the_border_and_in_space() {
 fn the_hierarchy_is_shallow_and_small() {
     for ratio in [8.0, 30.0, 60.0_f64] {
         let n = 100_000;
-        let d = located(n, Locate::Hierarchy(Hierarchy { ratio, ..Hierarchy::default() }));
+        let d = located(n, Locate::Hierarchy(Hierarchy::default().ratio(ratio)));
         let footprint = d.footprint();
         let depth = (n as f64).ln() / ratio.ln();
         let levels = footprint.levels.len() as f64;
@@ -186,7 +186,7 @@ impl Tally for Phases {
 fn phases_cost_what_the_paper_expects() {
     let queries = Kind::Uniform.points(4_000, 5);
     for (nearest, triangles) in [(Nearest::Corner, 0.0), (Nearest::Exact, 3.4), (Nearest::InCircle, 2.95)] {
-        let options = Hierarchy { ratio: 30.0, levels: Some(3), nearest, ..Hierarchy::default() };
+        let options = Hierarchy::default().ratio(30.0).levels(3).nearest(nearest);
         let d = located(60_000, Locate::Hierarchy(options));
         let mut phases = Phases::default();
         for &q in &queries {
@@ -217,7 +217,7 @@ fn a_hub_misleads_phase_three() {
         assert!(d.neighbors(VertexId::new(0)).count() >= n / 2);
         let mut work = Work::default();
         for seed in 0..4 {
-            let options = Hierarchy { ratio: 2.0, nearest, seed, ..Hierarchy::only_levels() };
+            let options = Hierarchy::only_levels().ratio(2.0).nearest(nearest).seed(seed);
             d.set_strategy(Locate::Hierarchy(options)).expect("in range");
             for i in (0..n).filter(is_asked) {
                 d.find_observed(all[i], &mut work).expect("finite");
@@ -235,7 +235,7 @@ fn a_hub_misleads_phase_three() {
 /// and not many more on all its levels.
 #[test]
 fn changes_are_cheap_on_all_levels() {
-    let options = Hierarchy { ratio: 3.0, ..Hierarchy::default() };
+    let options = Hierarchy::default().ratio(3.0);
     let mut d = located(20_000, Locate::Hierarchy(options));
     d.find([0.5, 0.5]).expect("finite");
     let sizes = |d: &Delaunay2| d.footprint().levels.iter().sum::<usize>() as u64;

@@ -34,7 +34,7 @@ proptest! {
             Algorithm2::DivideAndConquer,
             Algorithm2::Incremental { seed },
             Algorithm2::ConflictLists { seed },
-            Algorithm2::Located { locate: Locate::Hierarchy(Hierarchy { ratio: 2.0, seed, ..Hierarchy::default() }), seed },
+            Algorithm2::Located { locate: Locate::Hierarchy(Hierarchy::default().ratio(2.0).seed(seed)), seed },
             Algorithm2::Located { locate: Locate::History, seed },
         ];
         for algorithm in all {

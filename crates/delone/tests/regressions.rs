@@ -99,7 +99,7 @@ fn the_first_of_equal_points_is_the_corner_at_any_scale() {
 fn levels_that_hardly_shrink_are_refused() {
     for ratio in [1.0 + 1e-12, 1.2] {
         let mut d = Delaunay2::new();
-        let wrong = d.set_strategy(Locate::Hierarchy(Hierarchy { ratio, ..Hierarchy::default() }));
+        let wrong = d.set_strategy(Locate::Hierarchy(Hierarchy::default().ratio(ratio)));
         assert!(matches!(wrong, Err(Error::Parameter { name: "ratio", .. })), "{ratio}");
     }
 }

@@ -12,14 +12,14 @@ use delone_oracle::{exact, some_of};
 type Points = Vec<[f64; 3]>;
 
 fn strategies() -> Vec<Locate> {
-    let steep = Hierarchy { ratio: 3.0, smallest_level: 2, seed: 9, ..Hierarchy::default() };
+    let steep = Hierarchy::default().ratio(3.0).smallest_level(2).seed(9);
     vec![
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
         Locate::JumpAndWalk(JumpAndWalk::default()),
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
+        Locate::Hierarchy(steep.nearest(Nearest::Exact).levels(3)),
         Locate::DelaunayTree,
     ]
 }
@@ -151,8 +151,8 @@ fn every_strategy_locates_what_is_there() {
     for flat in [
         Locate::History,
         Locate::Walk(Walk::Straight),
-        Locate::Hierarchy(Hierarchy { walk: Some(Walk::Stochastic { seed: 1 }), ..hierarchy }),
-        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, ..hierarchy }),
+        Locate::Hierarchy(hierarchy.walk(Walk::Stochastic { seed: 1 })),
+        Locate::Hierarchy(hierarchy.nearest(Nearest::InCircle)),
     ] {
         assert_eq!(d.set_strategy(flat), Err(Error::OnlyInThePlane));
     }

@@ -213,7 +213,9 @@ fn relaxation_evens_out() {
         areas.iter().fold(0.0, |max: f64, a| max.max(*a)) / areas.iter().fold(1.0, |min: f64, a| min.min(*a))
     };
     let mut moves = Vec::new();
-    let relaxed = Relaxation2 { steps: 30, tolerance: 0.0 }
+    let relaxed = Relaxation2::default()
+        .steps(30)
+        .tolerance(0.0)
         .run(&d, &region, |_, moved| moves.push(moved))
         .expect("fine");
     let relaxed = Delaunay2::from_points(&relaxed).expect("finite");
@@ -221,11 +223,13 @@ fn relaxation_evens_out() {
     assert!(moves.len() == 30 && moves[29] < moves[0] / 4.0);
     // Of one site, to the middle.
     let one = Delaunay2::from_points(&[[0.25, 0.125]]).expect("finite");
-    let middle = Relaxation2 { steps: 1, tolerance: 0.0 }
+    let middle = Relaxation2::default()
+        .steps(1)
+        .tolerance(0.0)
         .run(&one, &region, |_, moved| assert_eq!(moved, 0.25_f64.hypot(0.375)))
         .expect("fine");
     assert_eq!(middle, [[0.5, 0.5]]);
-    assert!(Relaxation2 { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
+    assert!(Relaxation2::default().steps(1).tolerance(-1.0).run(&d, &region, |_, _| {}).is_err());
 }
 
 /// Each from both of its sides: what is unbounded goes away from the site that is on the other side, at a right angle.

@@ -30,7 +30,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     for n in decades(1_000, options.largest) {
         let mut trials: [Trials; 7] = Default::default();
         for seed in options.seeds() {
-            let hierarchy = |ratio| Locate::Hierarchy(Hierarchy { ratio, seed, ..Hierarchy::default() });
+            let hierarchy = |ratio| Locate::Hierarchy(Hierarchy::default().ratio(ratio).seed(seed));
             let (plain, ns) = remove(n, Locate::Walk(Walk::Visibility), seed)?;
             let (low, low_ns) = remove(n, hierarchy(30.0), seed)?;
             let (steep, steep_ns) = remove(n, hierarchy(4.0), seed)?;

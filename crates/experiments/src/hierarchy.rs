@@ -44,7 +44,7 @@ const QUERIES: usize = 10_000;
 
 fn ways(seed: u64) -> [Algorithm2; WAYS.len()] {
     let located = |locate| Algorithm2::Located { locate, seed };
-    let hierarchy = |options| located(Locate::Hierarchy(Hierarchy { seed, ..options }));
+    let hierarchy = |options: Hierarchy| located(Locate::Hierarchy(options.seed(seed)));
     [
         hierarchy(Hierarchy::only_walk()),
         hierarchy(Hierarchy::only_sample()),
@@ -137,8 +137,8 @@ fn in_space(options: &Options<'_>) -> Result<Table, Error> {
         for seed in options.seeds() {
             let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, seed))?;
             let queries = Kind3::Cube.points(QUERIES, seed + 1000);
-            let mut visited = |hierarchy| -> Result<Work, Error> {
-                d.set_strategy(Locate::Hierarchy(Hierarchy { seed, ..hierarchy }))?;
+            let mut visited = |hierarchy: Hierarchy| -> Result<Work, Error> {
+                d.set_strategy(Locate::Hierarchy(hierarchy.seed(seed)))?;
                 let mut work = Work::default();
                 queries.iter().try_for_each(|&q| d.find_observed(q, &mut work).map(drop))?;
                 Ok(work)
@@ -150,7 +150,7 @@ fn in_space(options: &Options<'_>) -> Result<Table, Error> {
                 visited(Hierarchy::only_levels())?.visited,
                 both.visited,
                 both.compared,
-                visited(Hierarchy { ratio: 8.0, ..Hierarchy::default() })?.visited,
+                visited(Hierarchy::default().ratio(8.0))?.visited,
             ];
             trials.iter_mut().zip(counts).for_each(|(trial, x)| trial.add(x as f64 / QUERIES as f64));
         }

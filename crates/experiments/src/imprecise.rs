@@ -266,8 +266,7 @@ fn by_hints<H>(
 
 /// The hierarchy without a sample on top and with one.
 fn hierarchies(seed: u64) -> [Locate; 2] {
-    [Hierarchy::only_levels(), Hierarchy::default()]
-        .map(|hierarchy| Locate::Hierarchy(Hierarchy { seed, ..hierarchy }))
+    [Hierarchy::only_levels(), Hierarchy::default()].map(|hierarchy| Locate::Hierarchy(hierarchy.seed(seed)))
 }
 
 /// Triangles visited a point, each walk straight from the point before.

@@ -62,7 +62,7 @@ fn measure<A: Ask>(d: &A, queries: &[A::Point]) -> Result<Cost, Error> {
 /// A uniform set whose queries start at one of `sample` vertices, or of n^(1/3).
 fn uniform(n: usize, sample: Option<usize>, seed: u64) -> Result<Delaunay2, Error> {
     let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
-    d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { sample, seed, ..JumpAndWalk::default() }))?;
+    d.set_strategy(Locate::JumpAndWalk(JumpAndWalk::default().sample(sample).seed(seed)))?;
     Ok(d)
 }
 
@@ -187,7 +187,11 @@ fn by_sample(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
                 let queries = &queries[..(DRAWN / m).clamp(1_000, QUERIES)];
                 let mut costs = Vec::new();
                 for with_replacement in [false, true] {
-                    let way = JumpAndWalk { sample: Some(m), seed: *seed, with_replacement, rho: 1.0 };
+                    let way = JumpAndWalk::default()
+                        .sample(m)
+                        .seed(*seed)
+                        .with_replacement(with_replacement)
+                        .rho(1.0);
                     d.set_strategy(Locate::JumpAndWalk(way))?;
                     costs.push(measure(d, queries)?);
                 }
@@ -278,7 +282,7 @@ fn densities(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
             let mut trials = Trials::default();
             for seed in options.seeds() {
                 let mut d = Delaunay2::from_points(&kind.points(n, seed))?;
-                d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }))?;
+                d.set_strategy(Locate::JumpAndWalk(JumpAndWalk::default().seed(seed)))?;
                 let cost = measure(&d, &kind.points(QUERIES / 4, seed + 1000))?;
                 trials.add((cost.visited + cost.compared) / (n as f64).cbrt());
             }
@@ -313,7 +317,7 @@ fn changes(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
         for seed in options.seeds() {
             let points = Kind::Uniform.points(2 * n, seed);
             let (first, others) = points.split_at(n);
-            let strategy = JumpAndWalk { seed, ..JumpAndWalk::default() };
+            let strategy = JumpAndWalk::default().seed(seed);
             let mut d = Delaunay2::with_strategy(Locate::JumpAndWalk(strategy))?;
             let mut built = Work::default();
             let (outcome, seconds) =
@@ -359,7 +363,7 @@ fn space(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         let mut trials: [Trials; 5] = Default::default();
         for seed in options.seeds() {
             let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, seed))?;
-            d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }))?;
+            d.set_strategy(Locate::JumpAndWalk(JumpAndWalk::default().seed(seed)))?;
             let mut random = Random::new(seed + 1000);
             let mut between = || random.between(0.1, 0.9);
             let queries: Vec<_> = (0..QUERIES / 2).map(|_| [between(), between(), between()]).collect();

@@ -184,7 +184,7 @@ fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         let ask = |d: &Delaunay2, q| _ = black_box(d.nearest(q));
         d.nearest([0.5, 0.5])?;
         let by_tree = each(&|q| ask(&d, q));
-        d.set_strategy(Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }))?;
+        d.set_strategy(Locate::Hierarchy(Hierarchy::default().seed(seed)))?;
         d.nearest([0.5, 0.5])?;
         let row = [
             each(&|q| _ = black_box(sites.nearest(q))),

@@ -35,28 +35,19 @@ pub(crate) enum Place<const D: usize> {
 /// Strategies of location; those of space come first.
 pub(crate) fn strategies(seed: u64) -> [Locate; 12] {
     let hierarchy = Hierarchy::default();
-    let steep = Hierarchy { ratio: 2.0, smallest_level: 2, seed, ..hierarchy };
+    let steep = hierarchy.ratio(2.0).smallest_level(2).seed(seed);
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
-        Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
+        Locate::JumpAndWalk(JumpAndWalk::default().seed(seed)),
         Locate::Hierarchy(hierarchy),
         // Levels even for few vertices.
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy {
-            ratio: 1.25,
-            nearest: Nearest::Exact,
-            with_replacement: true,
-            ..steep
-        }),
+        Locate::Hierarchy(steep.ratio(1.25).nearest(Nearest::Exact).with_replacement(true)),
         Locate::DelaunayTree,
         Locate::Walk(Walk::Stochastic { seed }),
         Locate::Walk(Walk::Straight),
-        Locate::Hierarchy(Hierarchy {
-            nearest: Nearest::InCircle,
-            walk: Some(Walk::Stochastic { seed }),
-            ..steep
-        }),
+        Locate::Hierarchy(steep.nearest(Nearest::InCircle).walk(Walk::Stochastic { seed })),
         Locate::History,
         Locate::Stars,
     ]

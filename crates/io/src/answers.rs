@@ -26,6 +26,7 @@ pub struct Answers<'a, P> {
 
 /// The answers, a row for each query.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum Found<'a> {
     /// Indices, -1 where there is none.
     Indices(&'a [i64]),

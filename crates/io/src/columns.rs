@@ -18,6 +18,7 @@ use crate::Error;
 
 /// A column of a table.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum Column<'a> {
     /// Integers: INT64.
     Integers(&'a [i64]),

@@ -111,6 +111,7 @@ impl PartialEq for Table {
 
 /// The value of a cell.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Value<'a> {
     /// There is none.
     Null,
@@ -130,6 +131,7 @@ pub enum Value<'a> {
 
 /// The type of a column: that of all its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ColumnType {
     /// True or false.
     Bool,

@@ -16,6 +16,7 @@ use table::{Row, TABLE};
 
 /// How a file says what its coordinates mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Said {
     /// So that readers know.
     Whole,

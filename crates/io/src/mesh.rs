@@ -79,7 +79,7 @@ pub struct Rows<'a> {
 /// let text = "6 2 0 0\n0 0 0\n1 9 0\n2 0 9\n3 1 1\n4 4 1\n5 1 4\n6 0\n0 0 1\n1 1 2\n2 2 0\n3 3 4\n4 4 5\n5 5 3\n1\n0 2 2\n";
 /// let graph = read_graph(Box::new(Cursor::new(text)), Format::Poly, &ReadOptions::default(), None)?;
 /// let c = Constrained2::from_parts(&graph.cloud.xy, &graph.segments)?;
-/// let seeds = Seeds2 { holes: graph.holes.clone(), ..Seeds2::default() };
+/// let seeds = Seeds2::default().holes(graph.holes.clone());
 /// let domains = c.domains(&Fill::Seeds(&seeds))?;
 /// let trim = Trim::keeping(&c, |t| domains.is_inside(t));
 /// let edges: Vec<_> = c.constraints().collect();

@@ -44,7 +44,7 @@ impl Scene {
     }
 
     fn written(&self, format: Format) -> Vec<u8> {
-        let seeds = [RegionSeed2 { at: [0.5, 0.5], attribute: 1.5, max_area: None }];
+        let seeds = [RegionSeed2::new([0.5, 0.5]).attribute(1.5)];
         let constraints = Constraints {
             edges: &self.edges,
             markers: Some(&MARKERS),

@@ -55,8 +55,8 @@ fn polys_are_read_and_written_whole() {
     assert_eq!(square.segments, [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]);
     assert_eq!((square.is_border.len(), square.markers.clone()), (5, Some(vec![3, 3, 0, 3, -9])));
     assert_eq!(square.holes, [[3.0, 1.0]]);
-    let region = RegionSeed2 { at: [1.0, 3.0], attribute: 6.5, max_area: Some(0.25) };
-    assert_eq!(square.regions, [region, RegionSeed2 { at: [1.0, 1.0], attribute: 7.5, max_area: None }]);
+    let region = RegionSeed2::new([1.0, 3.0]).attribute(6.5).max_area(0.25);
+    assert_eq!(square.regions, [region, RegionSeed2::new([1.0, 1.0]).attribute(7.5)]);
     let mut written = Vec::new();
     write_graph(&mut written, Format::Poly, &square).expect("memory takes it");
     assert_eq!(good(Format::Poly, &written), square);
@@ -76,7 +76,7 @@ fn polys_are_read_and_written_whole() {
     assert_eq!((points.xy, points.z), (square.cloud.xy, square.cloud.z));
     // One value of a region is both, as in Triangle.
     let alone = good(Format::Poly, "1 2 0 0\n0 0 0\n0 0\n0\n1\n1 6 -0.2 0.05\n");
-    assert_eq!(alone.regions, [RegionSeed2 { at: [6.0, -0.2], attribute: 0.05, max_area: Some(0.05) }]);
+    assert_eq!(alone.regions, [RegionSeed2::new([6.0, -0.2]).attribute(0.05).max_area(0.05)]);
     assert_eq!(alone.cloud.remarks.len(), 1);
 }
 

@@ -20,10 +20,8 @@ pub(super) fn descents(
     most: usize,
 ) -> Result<Vec<Sketch>, Error> {
     let strategy = match show {
-        Show::Jump => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
-        Show::Levels => {
-            Locate::Hierarchy(Hierarchy { seed, ratio: RATIO, smallest_level: 4, ..Hierarchy::only_levels() })
-        }
+        Show::Jump => Locate::JumpAndWalk(JumpAndWalk::default().seed(seed)),
+        Show::Levels => Locate::Hierarchy(Hierarchy::only_levels().seed(seed).ratio(RATIO).smallest_level(4)),
         _ => Locate::Walk(Walk::Straight),
     };
     let mut d = Delaunay2::from_points(points)?;

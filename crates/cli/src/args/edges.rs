@@ -19,9 +19,7 @@ pub(crate) struct EdgeArgs {
 impl EdgeArgs {
     /// The rule for simplices that are left out.
     pub(crate) fn border(&self) -> Border {
-        Border {
-            is_anywhere: self.max_edge_anywhere.is_some(),
-            ..Border::long_edges(self.max_edge.or(self.max_edge_anywhere))
-        }
+        Border::long_edges(self.max_edge.or(self.max_edge_anywhere))
+            .anywhere(self.max_edge_anywhere.is_some())
     }
 }

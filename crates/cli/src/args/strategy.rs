@@ -129,12 +129,13 @@ impl StrategyArgs {
         Ok(Some(match chosen {
             LocateName::Tree => Locate::Tree,
             LocateName::Walk => Locate::Walk(self.walk().unwrap_or_default()),
-            LocateName::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk {
-                rho: self.rho.unwrap_or(JumpAndWalk::default().rho),
-                sample: self.sample,
-                with_replacement: self.with_replacement,
-                seed,
-            }),
+            LocateName::JumpAndWalk => Locate::JumpAndWalk(
+                JumpAndWalk::default()
+                    .rho(self.rho.unwrap_or(JumpAndWalk::default().rho))
+                    .sample(self.sample)
+                    .with_replacement(self.with_replacement)
+                    .seed(seed),
+            ),
             LocateName::Hierarchy => Locate::Hierarchy(self.hierarchy()),
             LocateName::History => Locate::History,
             LocateName::Stars => Locate::Stars,
@@ -193,21 +194,20 @@ impl StrategyArgs {
 
     fn hierarchy(&self) -> Hierarchy {
         let default = Hierarchy::default();
-        Hierarchy {
-            ratio: self.ratio.unwrap_or(default.ratio),
-            levels: self.levels.or(default.levels),
-            smallest_level: self.smallest_level.unwrap_or(default.smallest_level),
-            smallest_sampled: self.smallest_sampled.map_or(default.smallest_sampled, |least| least.0),
-            rho: self.rho.unwrap_or(default.rho),
-            with_replacement: self.with_replacement,
-            nearest: match self.phase3 {
+        Hierarchy::default()
+            .ratio(self.ratio.unwrap_or(default.ratio))
+            .levels(self.levels.or(default.levels))
+            .smallest_level(self.smallest_level.unwrap_or(default.smallest_level))
+            .smallest_sampled(self.smallest_sampled.map_or(default.smallest_sampled, |least| least.0))
+            .rho(self.rho.unwrap_or(default.rho))
+            .with_replacement(self.with_replacement)
+            .nearest(match self.phase3 {
                 None | Some(Phase3::Corner) => Nearest::Corner,
                 Some(Phase3::Exact) => Nearest::Exact,
                 Some(Phase3::InCircle) => Nearest::InCircle,
-            },
-            walk: self.walk(),
-            seed: self.seed,
-        }
+            })
+            .walk(self.walk())
+            .seed(self.seed)
     }
 
     fn walk(&self) -> Option<Walk> {

@@ -90,7 +90,7 @@ pub(crate) struct TriangulateArgs {
 impl TriangulateArgs {
     /// The rule for simplices that are left out along the border.
     pub(crate) fn border(&self) -> Border {
-        Border { slivers: self.drop_slivers, ..Border::long_edges(self.max_edge) }
+        Border::long_edges(self.max_edge).slivers(self.drop_slivers)
     }
 }
 

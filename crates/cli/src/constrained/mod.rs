@@ -120,7 +120,7 @@ impl Constrained {
         let phase = Phase::start(quiet, "triangulating");
         let triangulation =
             Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
-        let seeds = Seeds2 { holes: graph.holes.clone(), regions: Vec::new(), keep_concavities };
+        let seeds = Seeds2::default().holes(graph.holes.clone()).keep_concavities(keep_concavities);
         let is_border = |s: SegmentId| graph.is_border.get(s.index()).copied().unwrap_or(true);
         let fill = match fill {
             FillName::All => Fill::All,

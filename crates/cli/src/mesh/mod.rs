@@ -128,11 +128,14 @@ impl Made {
         let Constrained { mut triangulation, mut graph, inside, polygons, heights } = from;
         let regions = std::mem::take(&mut graph.regions);
         let seeds = if fill == FillName::Seeds {
-            Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
+            Seeds2::default().holes(graph.holes.clone()).regions(regions).keep_concavities(plan.traits.convex)
         } else {
             // Where everything is inside, so are bays.
             let keep_concavities = fill == FillName::All;
-            Seeds2 { holes: seeds::holes(&triangulation, &inside, quiet), regions, keep_concavities }
+            Seeds2::default()
+                .holes(seeds::holes(&triangulation, &inside, quiet))
+                .regions(regions)
+                .keep_concavities(keep_concavities)
         };
         let size = |p: [f64; 2]| sizes.map_or(f64::INFINITY, |sizes| sizes.at(p));
         let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));

@@ -15,6 +15,7 @@ use crate::sets::Sets;
 
 /// A closed surface of triangles in which every edge has two triangles and every vertex one cycle of them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Manifold3 {
     /// The vertex of the triangulation that each vertex of the surface is a copy of, increasing.
     pub vertices: Vec<VertexId>,

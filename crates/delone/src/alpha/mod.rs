@@ -108,6 +108,7 @@ impl Face {
 
 /// The faces at some squared radius: in each dimension in the order of the filtration, corners by increasing id.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Complex<'a> {
     /// The vertices.
     pub vertices: &'a [[VertexId; 1]],

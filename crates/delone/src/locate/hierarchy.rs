@@ -40,7 +40,18 @@ pub enum Nearest {
 }
 
 /// Parameters of the hierarchy: those of §5.4 of the paper, with its defaults, and the choices that it discusses.
+///
+/// ```
+/// use delone::{Delaunay2, Hierarchy, Locate};
+///
+/// let steep = Hierarchy::default().ratio(3.0).levels(4).seed(1);
+/// assert_eq!((steep.ratio, steep.levels, steep.rho), (3.0, Some(4), 1.0));
+/// let mut d = Delaunay2::with_strategy(Locate::Hierarchy(steep))?;
+/// d.insert([0.0, 0.0])?;
+/// # Ok::<(), delone::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hierarchy {
     /// How many times smaller each level is than the one below; at least 1.25, so that all levels together have at most
     /// five times the vertices.
@@ -94,6 +105,60 @@ impl Hierarchy {
     /// The paper's mode "hierarchy": levels, no sample.
     pub fn only_levels() -> Self {
         Self { smallest_sampled: None, ..Self::default() }
+    }
+
+    /// Sets [`Self::ratio`].
+    #[must_use]
+    pub fn ratio(self, ratio: f64) -> Self {
+        Self { ratio, ..self }
+    }
+
+    /// Sets [`Self::levels`]: a number, or `None`.
+    #[must_use]
+    pub fn levels(self, levels: impl Into<Option<usize>>) -> Self {
+        Self { levels: levels.into(), ..self }
+    }
+
+    /// Sets [`Self::smallest_level`].
+    #[must_use]
+    pub fn smallest_level(self, smallest_level: usize) -> Self {
+        Self { smallest_level, ..self }
+    }
+
+    /// Sets [`Self::smallest_sampled`]: a number, or `None`.
+    #[must_use]
+    pub fn smallest_sampled(self, count: impl Into<Option<usize>>) -> Self {
+        Self { smallest_sampled: count.into(), ..self }
+    }
+
+    /// Sets [`Self::rho`].
+    #[must_use]
+    pub fn rho(self, rho: f64) -> Self {
+        Self { rho, ..self }
+    }
+
+    /// Sets [`Self::with_replacement`].
+    #[must_use]
+    pub fn with_replacement(self, with_replacement: bool) -> Self {
+        Self { with_replacement, ..self }
+    }
+
+    /// Sets [`Self::nearest`].
+    #[must_use]
+    pub fn nearest(self, nearest: Nearest) -> Self {
+        Self { nearest, ..self }
+    }
+
+    /// Sets [`Self::walk`]: a walk, or `None`.
+    #[must_use]
+    pub fn walk(self, walk: impl Into<Option<Walk>>) -> Self {
+        Self { walk: walk.into(), ..self }
+    }
+
+    /// Sets [`Self::seed`].
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
     }
 
     pub(super) fn validate(&self) -> Result<(), Error> {

@@ -16,7 +16,15 @@ use crate::order::random::SplitMix;
 use crate::tally::{Phase, Tally};
 
 /// Parameters of jump-and-walk.
+///
+/// ```
+/// use delone::{JumpAndWalk, Locate};
+///
+/// let few = Locate::JumpAndWalk(JumpAndWalk::default().sample(32).seed(1));
+/// # let _ = few;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct JumpAndWalk {
     /// The factor rho of the sample size rho n^(1/(d+1)).
     pub rho: f64,
@@ -35,6 +43,30 @@ impl Default for JumpAndWalk {
 }
 
 impl JumpAndWalk {
+    /// Sets [`Self::rho`].
+    #[must_use]
+    pub fn rho(self, rho: f64) -> Self {
+        Self { rho, ..self }
+    }
+
+    /// Sets [`Self::sample`]: a number, or `None`.
+    #[must_use]
+    pub fn sample(self, sample: impl Into<Option<usize>>) -> Self {
+        Self { sample: sample.into(), ..self }
+    }
+
+    /// Sets [`Self::with_replacement`].
+    #[must_use]
+    pub fn with_replacement(self, with_replacement: bool) -> Self {
+        Self { with_replacement, ..self }
+    }
+
+    /// Sets [`Self::seed`].
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
     pub(super) fn validate(&self) -> Result<(), Error> {
         if self.sample == Some(0) {
             return Err(Error::Parameter { name: "sample", value: 0.0, range: "at least 1" });

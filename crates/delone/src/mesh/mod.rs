@@ -10,7 +10,7 @@ pub(crate) use slots::Slots;
 pub use tetrahedra::{Mesh3, MeshFlaw3};
 pub use triangles::{Hull, Mesh2, MeshFlaw2, Star};
 
-/// The dimension of a set of points.
+/// The dimension of a set of points. There are five in the plane and in space, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Dimension {
     /// No point.

@@ -14,7 +14,7 @@ use crate::mesh::Dimension;
 use crate::points::{Position2, finite};
 use crate::tally::Tally;
 
-/// Where a point falls.
+/// Where a point falls. A point of the plane is in exactly one of these places, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location2 {
     /// Strictly inside this triangle.

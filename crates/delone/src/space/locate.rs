@@ -14,7 +14,7 @@ use crate::mesh::tetrahedra::FACETS;
 use crate::points::{Position3, finite};
 use crate::tally::Tally;
 
-/// Where a point of space falls.
+/// Where a point of space falls. A point is in exactly one of these places, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location3 {
     /// Strictly inside this tetrahedron.

@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::parallel;
 use crate::triangulation::Ask;
 
-/// Weights of many points, a row for each: a sparse matrix with compressed rows.
+/// Weights of many points, a row for each: a sparse matrix with compressed rows, which is these three arrays: no field
+/// will be added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weights {
     /// Where each row begins in the others, and where the last one ends.

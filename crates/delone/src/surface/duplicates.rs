@@ -11,6 +11,7 @@
 /// assert_eq!(heights[..2], [3.0, 7.0]);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Duplicates {
     /// The lowest.
     #[default]

@@ -14,6 +14,7 @@ use crate::triangulation::{Ask, Found};
 
 /// The values outside of the hull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outside {
     /// Nothing.
     #[default]

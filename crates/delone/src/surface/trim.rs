@@ -15,6 +15,7 @@ pub struct Trim {
 
 /// The rule for simplices along the border.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct Border {
     /// Simplices with a longer edge.
     pub longest: Option<f64>,
@@ -24,7 +25,8 @@ pub struct Border {
     pub slivers: Option<f64>,
 }
 
-/// A plane that takes away the simplices whose middle is beyond it.
+/// A plane that takes away the simplices whose middle is beyond it. A normal and an offset are all there is to a plane: no field will
+/// be added.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut {
     /// The side that is taken away.
@@ -37,6 +39,18 @@ impl Border {
     /// Long edges alone.
     pub fn long_edges(longest: Option<f64>) -> Self {
         Self { longest, ..Self::default() }
+    }
+
+    /// Sets [`Self::is_anywhere`].
+    #[must_use]
+    pub fn anywhere(self, is_anywhere: bool) -> Self {
+        Self { is_anywhere, ..self }
+    }
+
+    /// Sets [`Self::slivers`]: a part, or `None`.
+    #[must_use]
+    pub fn slivers(self, slivers: impl Into<Option<f64>>) -> Self {
+        Self { slivers: slivers.into(), ..self }
     }
 }
 

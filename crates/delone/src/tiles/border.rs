@@ -13,7 +13,8 @@ pub type Border = BorderOf<2, 3>;
 /// As bytes it is 32 for a point, 16 for a tetrahedron and 32 more.
 pub type Border3 = BorderOf<3, 4>;
 
-/// [`Border`] or [`Border3`]: of points with `D` coordinates, and simplices with `C` = `D` + 1 corners.
+/// [`Border`] or [`Border3`]: of points with `D` coordinates, and simplices with `C` = `D` + 1 corners. Its bytes are a format of their
+/// own, which has these arrays: no field will be added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BorderOf<const D: usize, const C: usize> {
     /// The points, all different.

@@ -47,7 +47,8 @@ impl Node {
     }
 }
 
-/// A line parallel to an axis, a plane in space. What is on it belongs to the upper side.
+/// A line parallel to an axis, a plane in space. What is on it belongs to the upper side. An axis and a coordinate
+/// are all there is to it: no field will be added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
     /// The coordinate that decides: 0 for x, 1 for y, 2 for z.

@@ -11,6 +11,7 @@ use crate::space::InOrder3;
 
 /// The result of a join of borders.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seam {
     /// The triangles that are final now and were not before, counter-clockwise, by the ids that the borders give.
     pub triangles: Vec<[u64; 3]>,
@@ -22,6 +23,7 @@ pub struct Seam {
 
 /// The result of a join of borders in space.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seam3 {
     /// The tetrahedra that are final now and were not before, in positive order: the first three corners are seen counter-clockwise
     /// from the fourth. By the ids that the borders give.

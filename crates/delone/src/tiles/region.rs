@@ -3,7 +3,8 @@
 use crate::error::Error;
 
 /// A box, half-open: a point is inside if no coordinate is below that of the low corner, and each is below that of the high one. Sides may
-/// be infinite. In the units of the points. It has two dimensions unless it is said to have three.
+/// be infinite. In the units of the points. It has two dimensions unless it is said to have three. Two corners
+/// are all there is to a box: no field will be added.
 ///
 /// ```
 /// use delone::tiles::Region;

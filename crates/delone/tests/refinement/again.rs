@@ -19,7 +19,7 @@ fn is_inside_area(c: &Constrained2, refined: &Refined2) -> f64 {
 
 #[test]
 fn the_same_angle_of_nothing_changes_nothing() {
-    let seeds = Seeds2 { keep_concavities: true, ..Seeds2::default() };
+    let seeds = Seeds2::default().keep_concavities(true);
     for seed in 0..6 {
         for fill in [Fill::All, Fill::Seeds(&seeds)] {
             let mut c = crossing(seed);
@@ -88,11 +88,11 @@ fn seeds_are_not_asked_again() {
         let at = [0, 1].map(|k| points.iter().map(|p| p[k] / 3.0).sum());
         // Every middle of a side is a seed too, if it is inside.
         let middles = segments.map(|[i, j]| [0, 1].map(|k| f64::midpoint(points[i][k], points[j][k])));
-        let mut regions = vec![RegionSeed2 { at, attribute: 3.0, max_area: Some(1e-2) }];
-        regions.extend(middles.map(|at| RegionSeed2 { at, attribute: 4.0, max_area: None }));
+        let mut regions = vec![RegionSeed2::new(at).attribute(3.0).max_area(1e-2)];
+        regions.extend(middles.map(|at| RegionSeed2::new(at).attribute(4.0)));
         regions.retain(|seed| c.domains(&Fill::EvenOdd).and_then(|mut d| c.claim(&mut d, &[*seed])).is_ok());
         bent += regions.len() - 1;
-        let seeds = Seeds2 { regions, ..Seeds2::default() };
+        let seeds = Seeds2::default().regions(regions);
         let first = Refinement::new().fill(Fill::Seeds(&seeds)).run(&mut c).expect("refined");
         let how = Refinement::new().min_angle(0.0).fill(Fill::Parts(&first.domains));
         let again = how.run(&mut c).expect("refined again");
@@ -139,7 +139,7 @@ fn regions_are_claimed_whatever_is_inside() {
     let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]];
     let c = Constrained2::from_parts(&square, &segments).expect("planar");
     let mut domains = c.domains(&Fill::EvenOdd).expect("rings");
-    let seed = |x: f64, attribute| RegionSeed2 { at: [x, 2.0], attribute, max_area: None };
+    let seed = |x: f64, attribute| RegionSeed2::new([x, 2.0]).attribute(attribute);
     c.claim(&mut domains, &[seed(0.5, 5.0), seed(2.0, 6.0), seed(0.25, 7.0)]).expect("seeds");
     assert_eq!(domains.rivals(), [[0, 2]]);
     for t in c.triangle_ids() {

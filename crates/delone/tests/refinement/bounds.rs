@@ -87,11 +87,9 @@ fn it_can_be_stopped() {
 #[test]
 fn regions_have_areas_of_their_own() {
     let (points, segments) = square();
-    let region = |at, max_area| RegionSeed2 { at, attribute: 7.0, max_area };
-    let seeds = Seeds2 {
-        regions: vec![region([0.5, 0.5], Some(0.05)), region([2.0, 1.5], Some(0.002))],
-        ..Seeds2::default()
-    };
+    let region = |at, max_area| RegionSeed2::new(at).attribute(7.0).max_area(max_area);
+    let seeds =
+        Seeds2::default().regions(vec![region([0.5, 0.5], Some(0.05)), region([2.0, 1.5], Some(0.002))]);
     let (c, refined) = refine(&points, &segments, Refinement::new(), Fill::Seeds(&seeds), 28.0, "regions");
     for t in c.triangle_ids() {
         let most = [0.05, 0.002][refined.domains.region(t).expect("everything is in one")];
@@ -215,7 +213,7 @@ fn what_cannot_be_is_an_error() {
     let infinite = |_: [f64; 2]| f64::INFINITY;
     let mut d = c.clone();
     Refinement::new().size(&infinite).run(&mut d).expect("no bound");
-    let seeds = Seeds2 { holes: vec![[0.0, 0.0]], ..Seeds2::default() };
+    let seeds = Seeds2::default().holes(vec![[0.0, 0.0]]);
     assert!(matches!(Refinement::new().fill(Fill::Seeds(&seeds)).run(&mut d), Err(Error::Seed { .. })));
 }
 

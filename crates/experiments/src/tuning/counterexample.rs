@@ -57,7 +57,7 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
             for seed in 0..options.trials as u64 * SEEDS {
                 for (k, (_, nearest)) in variants.into_iter().enumerate() {
                     let seed = options.seed + seed;
-                    let hierarchy = Hierarchy { ratio, nearest, seed, ..Hierarchy::only_levels() };
+                    let hierarchy = Hierarchy::only_levels().ratio(ratio).nearest(nearest).seed(seed);
                     d.set_strategy(Locate::Hierarchy(hierarchy))?;
                     let phases = count(&d, &queries)?;
                     let each = |total: u64| total as f64 / queries.len() as f64;

@@ -58,10 +58,10 @@ fn two_levels(n: f64, edges: Edges) -> f64 {
 type Way = (&'static str, fn(f64, Edges) -> f64, Hierarchy);
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let two = Hierarchy { ratio: RATIO, levels: Some(2), smallest_level: 1, ..Hierarchy::only_levels() };
+    let two = Hierarchy::only_levels().ratio(RATIO).levels(2).smallest_level(1);
     let ways: [Way; 3] = [
         ("walk", walk, Hierarchy::only_walk()),
-        ("sample", sample, Hierarchy { smallest_sampled: Some(1), ..Hierarchy::only_sample() }),
+        ("sample", sample, Hierarchy::only_sample().smallest_sampled(1)),
         ("two levels", two_levels, two),
     ];
     let sizes: Vec<usize> = (0..21)
@@ -90,7 +90,7 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
             for set in 0..SETS {
                 let seed = options.seed + 100 * set;
                 // One by one: a walk begins at the last of random points.
-                let (d, _) = uniform(n, Hierarchy { seed, ..way.2 }, seed)?;
+                let (d, _) = uniform(n, way.2.seed(seed), seed)?;
                 let phases = count(&d, &Kind::Uniform.points(QUERIES, seed + 1))?;
                 trials.add(operations(&phases, QUERIES));
             }

@@ -72,14 +72,8 @@ fn measure(kind: Kind, n: usize, ratio: f64, seed: u64) -> Result<[f64; 3], Erro
         degrees += below.map_or(0, |v| d.neighbors(v).count());
     }
     // Three levels, so that the middle one has phase 3.
-    let hierarchy = Hierarchy {
-        ratio,
-        levels: Some(3),
-        smallest_level: 1,
-        nearest: Nearest::Exact,
-        seed,
-        ..Hierarchy::only_levels()
-    };
+    let hierarchy =
+        Hierarchy::only_levels().ratio(ratio).levels(3).smallest_level(1).nearest(Nearest::Exact).seed(seed);
     let mut d = d;
     d.set_strategy(Locate::Hierarchy(hierarchy))?;
     let phases = count(&d, &queries)?;

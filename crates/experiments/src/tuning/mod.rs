@@ -98,7 +98,7 @@ fn phases(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         {
             let mut trials: [Trials; 5] = Default::default();
             for seed in options.seeds() {
-                let hierarchy = Hierarchy { ratio, nearest, seed, ..Hierarchy::only_levels() };
+                let hierarchy = Hierarchy::only_levels().ratio(ratio).nearest(nearest).seed(seed);
                 let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
                 d.set_strategy(Locate::Hierarchy(hierarchy))?;
                 let phases = count(&d, &Kind::Uniform.points(QUERIES, seed + 1000))?;
@@ -170,14 +170,14 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         for seed in options.seeds() {
             let queries = Kind::Uniform.points(QUERIES, seed + 1000);
             let each = |count: u64| count as f64 / QUERIES as f64;
-            let hierarchy = Hierarchy { ratio, seed, ..Hierarchy::default() };
+            let hierarchy = Hierarchy::default().ratio(ratio).seed(seed);
             // Built in bulk, without room for more.
             let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
             d.set_strategy(Locate::Hierarchy(hierarchy))?;
             let footprint = d.footprint();
             let (mut d, insertion) = uniform(n, hierarchy, seed)?;
             let (sampled, ns) = ask(&d, &queries)?;
-            d.set_strategy(Locate::Hierarchy(Hierarchy { ratio, seed, ..Hierarchy::only_levels() }))?;
+            d.set_strategy(Locate::Hierarchy(Hierarchy::only_levels().ratio(ratio).seed(seed)))?;
             let levels = count(&d, &queries)?;
             let values = [
                 operations(&levels, QUERIES),

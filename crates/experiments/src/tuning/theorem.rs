@@ -57,7 +57,7 @@ fn measure(kind: Kind, n: usize, seed: u64) -> Result<[f64; 4], Error> {
     let mut points = kind.points(n + asked, seed);
     Random::new(seed).shuffle(&mut points);
     let queries = points.split_off(n);
-    let hierarchy = Hierarchy { nearest: Nearest::InCircle, seed, ..Hierarchy::only_levels() };
+    let hierarchy = Hierarchy::only_levels().nearest(Nearest::InCircle).seed(seed);
     let mut built = Work::default();
     let d = build(&points, hierarchy, &mut built)?;
     let (plain, seconds) = timed(|| build(&points, hierarchy, &mut ()));

@@ -106,7 +106,7 @@ impl fmt::Display for Contents {
     }
 }
 
-/// Whether a file is read or written.
+/// Whether a file is read or written. There is no third, so a match may name both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// From the file.

@@ -185,7 +185,7 @@ fn regions(lines: &mut Lines, remarks: &mut Vec<String>) -> Result<Vec<RegionSee
         };
         let max_area = (area > 0.0).then_some(area);
         alone += usize::from(words.next().is_none() && line.text.split_whitespace().count() == 4);
-        regions.push(RegionSeed2 { at, attribute, max_area });
+        regions.push(RegionSeed2::new(at).attribute(attribute).max_area(max_area));
     }
     if alone > 0 {
         remarks.push(format!("the one value of {alone} regions was taken as attribute and as largest area"));
@@ -278,7 +278,7 @@ impl Rest<'_> {
         if !self.regions.is_empty() {
             writeln!(out, "{}", self.regions.len())?;
         }
-        for (i, RegionSeed2 { at: [x, y], attribute, max_area }) in self.regions.iter().enumerate() {
+        for (i, RegionSeed2 { at: [x, y], attribute, max_area, .. }) in self.regions.iter().enumerate() {
             writeln!(out, "{} {x:?} {y:?} {attribute:?} {:?}", base + i, max_area.unwrap_or(-1.0))?;
         }
         Ok(())

@@ -25,6 +25,7 @@ pub(crate) use tiff::read as read_tiff;
 
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Sample {
     /// Floating point of 32 bits; as text the fewest digits that read back as the same 32 bits.
     #[default]
@@ -48,6 +49,7 @@ impl Sample {
 
 /// How a GeoTIFF is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Compression {
     /// Deflate, which is read everywhere.
     #[default]
@@ -60,6 +62,7 @@ pub enum Compression {
 
 /// The value of a cell in an overview of a GeoTIFF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Overviews {
     /// The mean of the cells below that have data.
     #[default]

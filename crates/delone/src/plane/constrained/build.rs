@@ -29,6 +29,7 @@ use crate::sorting;
 
 /// The treatment of two segments that cross.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Crossings {
     /// It is an error: a crossing may be a mistake in the data, and to split it moves geometry a little.
     #[default]

@@ -15,6 +15,7 @@ use crate::points::{Position2, finite};
 
 /// The treatment of segments that end at a removed vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum SegmentEnds {
     /// It is an error, and nothing changes.
     #[default]

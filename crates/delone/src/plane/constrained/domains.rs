@@ -37,7 +37,16 @@ pub enum Fill<'a> {
 }
 
 /// Points in holes and regions.
+///
+/// ```
+/// use delone::{RegionSeed2, Seeds2};
+///
+/// let fine = RegionSeed2::new([3.0, 1.0]).attribute(7.0).max_area(0.1);
+/// let seeds = Seeds2::default().holes(vec![[1.0, 1.0]]).regions(vec![fine]);
+/// assert!(!seeds.keep_concavities && seeds.regions[0].max_area == Some(0.1));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seeds2 {
     /// A point in each hole.
     pub holes: Vec<[f64; 2]>,
@@ -49,6 +58,7 @@ pub struct Seeds2 {
 
 /// A point in a region, and what is known of the region.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RegionSeed2 {
     /// The point.
     pub at: [f64; 2],
@@ -56,6 +66,45 @@ pub struct RegionSeed2 {
     pub attribute: f64,
     /// The largest area that a triangle of the region should have, for refinement.
     pub max_area: Option<f64>,
+}
+
+impl Seeds2 {
+    /// Sets [`Self::holes`].
+    #[must_use]
+    pub fn holes(self, holes: Vec<[f64; 2]>) -> Self {
+        Self { holes, ..self }
+    }
+
+    /// Sets [`Self::regions`].
+    #[must_use]
+    pub fn regions(self, regions: Vec<RegionSeed2>) -> Self {
+        Self { regions, ..self }
+    }
+
+    /// Sets [`Self::keep_concavities`].
+    #[must_use]
+    pub fn keep_concavities(self, keep_concavities: bool) -> Self {
+        Self { keep_concavities, ..self }
+    }
+}
+
+impl RegionSeed2 {
+    /// A region of attribute 0, without a largest area.
+    pub fn new(at: [f64; 2]) -> Self {
+        Self { at, attribute: 0.0, max_area: None }
+    }
+
+    /// Sets [`Self::attribute`].
+    #[must_use]
+    pub fn attribute(self, attribute: f64) -> Self {
+        Self { attribute, ..self }
+    }
+
+    /// Sets [`Self::max_area`]: an area, or `None`.
+    #[must_use]
+    pub fn max_area(self, area: impl Into<Option<f64>>) -> Self {
+        Self { max_area: area.into(), ..self }
+    }
 }
 
 /// A part of the hull that constraints bound.

@@ -40,6 +40,7 @@ pub struct Polygons2 {
 
 /// The triangles inside of a polygon.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct PolygonTriangles2 {
     /// The corners of all rings, one ring after another, and then the points where sides were split.
     pub points: Vec<[f64; 2]>,

@@ -28,6 +28,7 @@ impl SegmentId {
 
 /// A segment that covers a constraint edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub struct Covering2 {
     /// The segment.
     pub segment: SegmentId,

@@ -33,6 +33,7 @@ pub struct OrderCircle2<'a> {
 
 /// A side of a region, beyond which one site is exchanged for another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Exchange {
     /// The site that is nearest no longer.
     pub lost: VertexId,

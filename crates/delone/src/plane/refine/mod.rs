@@ -35,6 +35,7 @@ use rules::{Field, Rules};
 
 /// Which constraints may not be split.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Keep {
     /// All may.
     #[default]

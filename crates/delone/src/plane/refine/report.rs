@@ -37,6 +37,7 @@ impl Reason {
 
 /// A triangle that is not as it was to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Unrefined2 {
     /// The triangle, as long as nothing changes.
     pub triangle: TriangleId,

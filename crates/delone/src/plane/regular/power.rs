@@ -48,6 +48,7 @@ pub struct Power2<'a> {
 
 /// Areas of clipped power cells, and how they change with the weights.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Jacobian2 {
     /// The area of the cell of each site, by id; zero for one that is hidden or gone.
     pub areas: Vec<f64>,

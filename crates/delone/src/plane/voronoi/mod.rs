@@ -53,7 +53,8 @@ pub struct Voronoi2<'a> {
     triangulation: &'a Delaunay2,
 }
 
-/// An edge of the diagram: the points as near to two sites as to any other.
+/// An edge of the diagram: the points as near to two sites as to any other. It is bounded on two sides, on one or on
+/// none, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VoronoiEdge2 {
     /// From the center of the triangle on the left of the Delaunay edge to the one on its right.

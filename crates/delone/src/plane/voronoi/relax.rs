@@ -11,6 +11,7 @@ use crate::plane::Region2;
 
 /// How far to relax.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Relaxation2 {
     /// Steps at most.
     pub steps: usize,
@@ -25,6 +26,18 @@ impl Default for Relaxation2 {
 }
 
 impl Relaxation2 {
+    /// Sets [`Self::steps`].
+    #[must_use]
+    pub fn steps(self, steps: usize) -> Self {
+        Self { steps, ..self }
+    }
+
+    /// Sets [`Self::tolerance`].
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// Moves sites to the centroids of their cells in a region. Sites whose cell misses the region stay. Returns for
     /// each point of the triangulation, duplicates included, its new position. After each step `progress` is told the
     /// number of steps and the largest distance that a site has moved.
@@ -37,7 +50,7 @@ impl Relaxation2 {
     ///
     /// let d = Delaunay2::from_points(&[[0.1, 0.5], [0.2, 0.5]])?;
     /// let unit = Region2::rectangle([0.0, 0.0], [1.0, 1.0])?;
-    /// let relaxed = Relaxation2 { steps: 100, tolerance: 1e-9 }.run(&d, &unit, |_, _| {})?;
+    /// let relaxed = Relaxation2::default().steps(100).tolerance(1e-9).run(&d, &unit, |_, _| {})?;
     /// assert!((relaxed[0][0] - 0.25).abs() < 1e-6 && (relaxed[1][0] - 0.75).abs() < 1e-6);
     /// # Ok::<(), delone::Error>(())
     /// ```

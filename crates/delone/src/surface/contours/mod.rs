@@ -32,6 +32,7 @@ use sheet::Sheet;
 
 /// A line at one height.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContourLine {
     /// The height.
     pub level: f64,
@@ -44,6 +45,7 @@ pub struct ContourLine {
 
 /// The area between two heights: the lower one belongs to it, the upper one to the next.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContourBand {
     /// The lower height, -infinity below the first level.
     pub lower: f64,

@@ -120,6 +120,7 @@ pub struct Thinning {
 
 /// The points that are left.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Thinned {
     /// The points that are left, by their indices in the input, cells of a raster row by row: those that there were to begin with (the
     /// corners of the hull, the ends of segments and where they meet, by index), then in the order in which they were chosen, but for those that later ones made

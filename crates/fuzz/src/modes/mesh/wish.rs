@@ -64,14 +64,14 @@ impl Wish {
             let from = points.first().map_or(0.0, |p| p[0]);
             Some(Field { from, base, slope }).filter(|field| positive(field.base).is_some())
         };
-        let mut seeds = Seeds2 { keep_concavities: once_in(random, 2), ..Seeds2::default() };
+        let mut seeds = Seeds2::default().keep_concavities(once_in(random, 2));
         for _ in 0..random.below(3) {
             let at = nasty::query(random, points);
             let max_area = if once_in(random, 2) { positive(span * span * 0.01) } else { None };
             if once_in(random, 2) {
                 seeds.holes.push(at);
             } else {
-                seeds.regions.push(RegionSeed2 { at, attribute: 1.0, max_area });
+                seeds.regions.push(RegionSeed2::new(at).attribute(1.0).max_area(max_area));
             }
         }
         Self {

@@ -11,6 +11,7 @@ const OVERLAP_CLASS: u8 = 12;
 
 /// Which returns of a pulse are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Returns {
     /// All of them.
     #[default]
@@ -44,6 +45,7 @@ impl FromStr for Returns {
 
 /// A flag of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum LasFlag {
     /// Made by something else than a scanner.
     Synthetic,

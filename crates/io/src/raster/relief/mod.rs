@@ -34,6 +34,7 @@ impl Default for Light {
 
 /// The kind of a relief.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ReliefKind {
     /// Shades from 1 to 255 of ground that is lit from one side.
     Hillshade(Light),
