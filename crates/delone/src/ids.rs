@@ -4,6 +4,9 @@
 //! and corner are known without a look-up, and a triangle's record starts on a 32-byte boundary. Four edge
 //! indices a triangle and 2n - 2 triangles for n points bound n by [`MAX_POINTS`].
 
+#[cfg(feature = "serde")]
+mod serialized;
+
 use std::fmt;
 
 use bytemuck::Zeroable;
@@ -65,6 +68,7 @@ impl fmt::Debug for VertexId {
 
 /// A point that equals an earlier one and is no vertex. It is a pair, and no field will be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Duplicate {
     /// The index of the point.
     pub point: usize,
@@ -74,6 +78,7 @@ pub struct Duplicate {
 
 /// The outcome of an insertion. A point is a new vertex or equals one, so a match may name both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Inserted {
     /// It is a vertex now.
     New(VertexId),

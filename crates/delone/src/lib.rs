@@ -69,6 +69,7 @@
 //! | `histories` | yes | location by history; without it, in the plane, such strategies are the tree |
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
+//! | `serde` | | ids, [`Duplicate`], [`Inserted`], [`Location2`], [`Location3`], [`Dimension`] and [`Bounds`] are written and read; whole triangulations are not: they are functions of their points |
 //!
 //! # Debug builds
 //!

@@ -183,6 +183,14 @@ pub(crate) fn check_in_space<P: Position3>(points: &[P]) -> Result<(), Error> {
 /// assert_eq!((bounds.low, bounds.high, bounds.extent()), ([0.0, 1.0], [2.0, 3.0], [2.0, 2.0]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "[f64; D]: serde::Serialize",
+        deserialize = "[f64; D]: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Bounds<const D: usize> {
     /// The least corner; infinite around no point.
     pub low: [f64; D],

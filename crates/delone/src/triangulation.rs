@@ -206,7 +206,8 @@ pub trait Change: Ask + Clone + Default {
     fn extend(&mut self, points: &[Self::Point], seed: u64) -> Result<Range<usize>, Error>;
 }
 
-/// A triangulation of points with weights: they come, go and change their weights, and may be hidden.
+/// A triangulation of points with weights: they come, go and change their weights, and may be hidden. It has no [`Ask`], as that is by
+/// distance: edges of a regular triangulation lead to the least power, and not to the nearest vertex.
 pub trait Regular: Triangulation + Clone + Default {
     /// Triangulates points with weights, squared radii, by the fastest algorithm.
     fn from_parts(points: &[Self::Point], weights: &[f64]) -> Result<Self, Error>;
@@ -235,8 +236,17 @@ pub trait Regular: Triangulation + Clone + Default {
     /// Gives all sites other weights, by id.
     fn set_weights(&mut self, weights: &[f64]) -> Result<Reweighed, Error>;
 
+    /// Adds many sites in an order that the seed decides, and returns their ids as a range of indices.
+    fn extend(&mut self, sites: &[(Self::Point, f64)], seed: u64) -> Result<Range<usize>, Error>;
+
     /// The vertex with the least power at a point.
     fn nearest(&self, q: Self::Point) -> Result<Option<VertexId>, Error>;
+
+    /// The `k` vertices with the least powers at a point, the least first; fewer if there are not so many.
+    fn k_nearest(&self, q: Self::Point, k: usize) -> Result<Vec<VertexId>, Error>;
+
+    /// The vertices whose power at a point is at most `power`, by increasing id.
+    fn within(&self, q: Self::Point, power: f64) -> Result<Vec<VertexId>, Error>;
 }
 
 /// Points that are nearly known beforehand: an order and a hint for each, found once.

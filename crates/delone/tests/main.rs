@@ -3,6 +3,7 @@
 mod alpha;
 mod architecture;
 mod borders;
+mod cell_borders;
 mod changes;
 mod conformance;
 mod constrained;
@@ -30,6 +31,7 @@ mod refinement;
 mod regions;
 mod regressions;
 mod regular;
+mod regular_queries;
 mod space;
 mod space_changes;
 mod space_properties;

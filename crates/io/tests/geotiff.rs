@@ -155,7 +155,7 @@ fn the_first_page_counts_and_overviews_do_not() {
         (&raster.values[..], &raster.losses[..]),
         (&[1.0][..], &["of 3 pages the first is read".to_owned()][..])
     );
-    assert_eq!(raster.into_points().remarks, ["of 3 pages the first is read"]);
+    assert_eq!(raster.into_points().losses, ["of 3 pages the first is read"]);
     assert!(read(&[page(1).with(254, 1)]).is_err());
     // Directories that go around are refused, not followed for ever.
     let mut bytes = file(&[page(1), page(2)], true);

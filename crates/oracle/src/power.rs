@@ -54,30 +54,30 @@ pub(crate) fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D
     (points, weights, of_points - finer)
 }
 
-/// Whether each coordinate of a point is the nearest `f64` of the point with the same power to three sites, of two at one distance
-/// the even one. False for collinear sites.
-pub fn has_nearest_center(sites: [Site<2>; 3], place: [f64; 2]) -> bool {
+/// Whether each coordinate of a point is the nearest `f64` of the point with the same power to sites, one more than there are dimensions; of
+/// two at one distance the even one. False for sites in a line, or a plane.
+pub fn has_nearest_center<const D: usize>(sites: &[Site<D>], place: [f64; D]) -> bool {
     // What is beyond the largest number is as far away as another step.
     let [low, high] = [place.map(|x| x.next_down().max(f64::MIN)), place.map(|x| x.next_up().min(f64::MAX))];
-    let [a, b, c] = sites;
-    let (p, w, _) = on_one_scale(&[a, b, c, (low, 0.0), (place, 0.0), (high, 0.0)]);
-    // Twice the scalar product with the difference of two points is that of their lifts.
-    let row = |k: usize| [0, 1].map(|axis| (&p[k][axis] - &p[0][axis]) * 2);
+    let (p, w, _) = on_one_scale(&[sites, &[(low, 0.0), (place, 0.0), (high, 0.0)]].concat());
+    let [low, at, high] = [0, 1, 2].map(|k| &p[sites.len() + k]);
+    // Twice the scalar product with the difference of two points is that of their lifts: by Cramer's rule.
     let lift = |k: usize| p[k].iter().map(|x| x * x).sum::<BigInt>() - &w[k];
-    let ([b, c], [lift_b, lift_c]) = ([row(1), row(2)], [lift(1) - lift(0), lift(2) - lift(0)]);
-    let mut below: BigInt = &b[0] * &c[1] - &b[1] * &c[0];
-    let mut at: [BigInt; 2] = [&lift_b * &c[1] - &lift_c * &b[1], &b[0] * &lift_c - &c[0] * &lift_b];
-    if below < BigInt::ZERO {
-        (below, at) = (-below, at.map(|x| -x));
-    }
-    below != BigInt::ZERO
-        && (0..2).all(|axis| {
-            let twice: BigInt = &at[axis] * 2;
+    let rows: Vec<Vec<BigInt>> =
+        (1..=D).map(|k| (0..D).map(|axis| (&p[k][axis] - &p[0][axis]) * 2).collect()).collect();
+    let below = determinant(&rows);
+    let (sign, is_flat) = (if below < BigInt::ZERO { -1 } else { 1 }, below == BigInt::ZERO);
+    let below = below * sign;
+    !is_flat
+        && (0..D).all(|axis| {
+            let mut replaced = rows.clone();
+            replaced.iter_mut().enumerate().for_each(|(k, row)| row[axis] = lift(k + 1) - lift(0));
+            let twice: BigInt = determinant(&replaced) * sign * 2;
             let is_even = place[axis].to_bits() & 1 == 0;
-            let [least, most] = [3, 5].map(|end| (&p[4][axis] + &p[end][axis]) * &below);
-            let is_beyond = |end: usize| p[end][axis] == p[4][axis];
-            (twice > least || (is_even && twice == least) || is_beyond(3))
-                && (twice < most || (is_even && twice == most) || is_beyond(5))
+            let [least, most] = [low, high].map(|end| (&at[axis] + &end[axis]) * &below);
+            let is_beyond = |end: &[BigInt; D]| end[axis] == at[axis];
+            (twice > least || (is_even && twice == least) || is_beyond(low))
+                && (twice < most || (is_even && twice == most) || is_beyond(high))
         })
 }
 

@@ -87,7 +87,7 @@ pub use power::{
 };
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
-pub use sphere_center::circumcenter3;
+pub use sphere_center::{circumcenter3, power_center3};
 pub use sphere_pencil::{Ball, SpherePencil};
 pub use within::{stays_within, stays_within3};
 

@@ -4,9 +4,10 @@
 
 use crate::ball::{Ball, Number};
 use crate::exact::big;
+use crate::exact::power::{self, Rows};
 use crate::line::middle;
 use crate::orthosphere::fraction::{length, normal};
-use crate::{Point3, Sign};
+use crate::{Point3, Sign, Site};
 
 /// The center of the sphere through four points that are not in a plane. In coordinate units, correctly rounded: each coordinate is
 /// the nearest `f64` of the exact one, so the same bits for every order of the points, and for five points on one sphere whichever
@@ -26,9 +27,34 @@ pub fn circumcenter3(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Point
     in_balls(corners).or_else(|| exactly(corners)).filter(|center| center.iter().all(|x| x.is_finite()))
 }
 
+/// The point that has the same power to four sites whose points are not in a plane: the Voronoi vertex of power diagrams of space. In
+/// coordinate units, correctly rounded, so the same bits for every order of the sites.
+///
+/// `None` if it is too far away for an `f64`, and for points in a plane. O(1): some microseconds, and as [`circumcenter3`] where weights are
+/// equal.
+///
+/// ```
+/// use delone_predicates::power_center3;
+/// let [a, b, c, d] = [[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]].map(|p| (p, 0.0));
+/// assert_eq!(power_center3(a, b, c, d), Some([1.0; 3]));
+/// assert_eq!(power_center3(a, (b.0, 2.0), c, d), Some([0.5, 1.0, 1.0])); // further from the heavy one
+/// ```
+pub fn power_center3(a: Site<3>, b: Site<3>, c: Site<3>, d: Site<3>) -> Option<Point3> {
+    let sites = [a, b, c, d];
+    if sites.iter().all(|site| site.1 == a.1) {
+        return circumcenter3(a.0, b.0, c.0, d.0);
+    }
+    exactly_by_powers(sites).filter(|center| center.iter().all(|x| x.is_finite()))
+}
+
 /// A numerator for each axis, and the denominator.
-fn fraction<T: Number>([u, v, w]: [[T; 3]; 3]) -> ([T; 3], T) {
-    let [uu, vv, ww] = [length(&u), length(&v), length(&w)];
+fn fraction<T: Number>(sides: [[T; 3]; 3]) -> ([T; 3], T) {
+    let lengths = sides.each_ref().map(|side| length(side));
+    lifted_fraction(sides, lengths)
+}
+
+/// Numerators and denominator where corners have other lifts than the squares of their sides.
+fn lifted_fraction<T: Number>([u, v, w]: [[T; 3]; 3], [uu, vv, ww]: [T; 3]) -> ([T; 3], T) {
     let (vw, wu, uv) = (normal(&v, &w), normal(&w, &u), normal(&u, &v));
     let offset = |axis: usize| uu.times(&vw[axis]).plus(&vv.times(&wu[axis])).plus(&ww.times(&uv[axis]));
     let volume = u[0].times(&vw[0]).plus(&u[1].times(&vw[1])).plus(&u[2].times(&vw[2]));
@@ -69,6 +95,18 @@ fn exactly(corners: [Point3; 4]) -> Option<Point3> {
     let (offset, volume) = fraction([side(1), side(2), side(3)]);
     (volume.sign() != Sign::Zero)
         .then(|| [0, 1, 2].map(|axis| big::quotient(&(&p[axis] * &volume + &offset[axis]), &volume, scale)))
+}
+
+#[cold]
+#[inline(never)]
+fn exactly_by_powers(sites: [Site<3>; 4]) -> Option<Point3> {
+    let (Rows { differences, lifts, scale, .. }, last) = power::big_rows_and_last(&sites);
+    let side = |i: usize| [0, 1, 2].map(|axis| differences[i][axis].clone());
+    let lifts = [0, 1, 2].map(|i| lifts[i].clone());
+    let (offset, volume) = lifted_fraction([side(0), side(1), side(2)], lifts);
+    (volume.sign() != Sign::Zero).then(|| {
+        [0, 1, 2].map(|axis| big::quotient(&(&last[axis] * &volume + &offset[axis]), &volume, scale))
+    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use delone_oracle::power::{Lifted, compare, has_nearest_center};
 use delone_predicates::{
     Filter3, Grid, Line, Sign, Site, SpherePencil, Spot, compare_powers, in_circle, in_power_circle,
     in_power_circle_with_ties, in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere,
-    orient2d, orient3d, power_center,
+    orient2d, orient3d, power_center, power_center3,
 };
 
 /// A coordinate of a family, and a weight that ties often or nearly.
@@ -192,7 +192,25 @@ fn power_centers_are_correctly_rounded() {
         }
         let spot = Spot::Meeting(Line::Radical(b, a), Line::Radical(c, b));
         assert_eq!(spot.rounded().map(|p| p.map(f64::to_bits)), Some(bits), "{name}: {a:?} {b:?} {c:?}");
-        assert!(has_nearest_center([a, b, c], center), "{name}: {a:?} {b:?} {c:?}");
+        assert!(has_nearest_center(&[a, b, c], center), "{name}: {a:?} {b:?} {c:?}");
+        near += 1;
+    });
+    assert!(near > 1000, "{near}");
+}
+
+#[test]
+fn power_centers_in_space_are_correctly_rounded() {
+    let mut near = 0;
+    tuples::<3, 4>(7, 600, |name, sites| {
+        let [a, b, c, d] = sites;
+        let center = power_center3(a, b, c, d);
+        if orient3d(a.0, b.0, c.0, d.0).is_zero() {
+            assert_eq!(center, None, "{name}: {sites:?}");
+            return;
+        }
+        let Some(center) = center else { return };
+        assert!(has_nearest_center(&sites, center), "{name}: {sites:?} {center:?}");
+        assert_eq!(power_center3(d, b, a, c), Some(center), "{name}: {sites:?}");
         near += 1;
     });
     assert!(near > 1000, "{near}");

@@ -3,7 +3,7 @@
 //! Why following edges is enough: of the neighbors of a vertex that is not nearest to q one is nearer, so a
 //! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbor of one of them; and the
 //! vertices within a radius are connected by edges between them (all three because the edges contain those of the
-//! Delaunay graph).
+//! Delaunay graph). The same holds of powers in a regular triangulation, whose lifted vertices are those of a convex hull.
 //!
 //! Equal distances are ordered by the points, lexicographically, so every answer is a function of the set of
 //! points alone.
@@ -15,28 +15,33 @@ use super::Ground;
 use crate::ids::Place;
 use crate::tally::Tally;
 
-/// A triangulation as searches by distance see it.
-pub(crate) trait Metric: Ground {
+/// Vertices joined by edges, as searches by distance, or by power, see them.
+pub(crate) trait Near<P: Copy> {
     /// Compares two vertices by their distance from `q`, then lexicographically.
-    fn nearer(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
+    fn nearer(&self, q: P, a: Place, b: Place) -> Ordering;
 
     /// Whether a vertex is at most `radius` away from `q`.
-    fn is_within(&self, q: Self::Point, v: Place, radius: f64) -> bool;
+    fn is_within(&self, q: P, v: Place, radius: f64) -> bool;
 
     /// Calls for each neighbor of a vertex.
     fn beside(&self, v: Place, each: impl FnMut(Place));
 }
 
+/// A triangulation whose vertices are searched by distance.
+pub(crate) trait Metric: Ground + Near<<Self as Ground>::Point> {}
+
+impl<G: Ground + Near<<G as Ground>::Point>> Metric for G {}
+
 /// The nearest vertex, down along edges from another one.
-pub(crate) fn descend<G: Metric, T: Tally>(ground: &G, from: Place, q: G::Point, tally: &mut T) -> Place {
+pub(crate) fn descend<P: Copy, G: Near<P>, T: Tally>(ground: &G, from: Place, q: P, tally: &mut T) -> Place {
     descend_within(ground, from, q, usize::MAX, tally).0
 }
 
 /// The same, but it ends, on the way, once more than `most` vertices have been compared; and how many have.
-pub(crate) fn descend_within<G: Metric, T: Tally>(
+pub(crate) fn descend_within<P: Copy, G: Near<P>, T: Tally>(
     ground: &G,
     from: Place,
-    q: G::Point,
+    q: P,
     most: usize,
     tally: &mut T,
 ) -> (Place, usize) {
@@ -58,34 +63,39 @@ pub(crate) fn descend_within<G: Metric, T: Tally>(
 }
 
 /// A vertex on the way to becoming one of the nearest. The greatest is the nearest, as a heap wants it.
-struct Candidate<'a, G: Metric> {
+struct Candidate<'a, P, G> {
     ground: &'a G,
-    q: G::Point,
+    q: P,
     place: Place,
 }
 
-impl<G: Metric> PartialEq for Candidate<'_, G> {
+impl<P: Copy, G: Near<P>> PartialEq for Candidate<'_, P, G> {
     fn eq(&self, other: &Self) -> bool {
         self.place == other.place
     }
 }
 
-impl<G: Metric> Eq for Candidate<'_, G> {}
+impl<P: Copy, G: Near<P>> Eq for Candidate<'_, P, G> {}
 
-impl<G: Metric> Ord for Candidate<'_, G> {
+impl<P: Copy, G: Near<P>> Ord for Candidate<'_, P, G> {
     fn cmp(&self, other: &Self) -> Ordering {
         self.ground.nearer(self.q, other.place, self.place)
     }
 }
 
-impl<G: Metric> PartialOrd for Candidate<'_, G> {
+impl<P: Copy, G: Near<P>> PartialOrd for Candidate<'_, P, G> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
 /// The k nearest vertices, nearest first, given the nearest one.
-pub(crate) fn k_nearest<G: Metric>(ground: &G, nearest: Option<Place>, q: G::Point, k: usize) -> Vec<Place> {
+pub(crate) fn k_nearest<P: Copy, G: Near<P>>(
+    ground: &G,
+    nearest: Option<Place>,
+    q: P,
+    k: usize,
+) -> Vec<Place> {
     let candidate = |place: Place| Candidate { ground, q, place };
     let mut found = Vec::new();
     let mut waiting: BinaryHeap<_> = nearest.into_iter().map(candidate).collect();
@@ -105,10 +115,10 @@ pub(crate) fn k_nearest<G: Metric>(ground: &G, nearest: Option<Place>, q: G::Poi
 }
 
 /// The vertices at most `radius` away, in no special order, given the nearest one.
-pub(crate) fn within<G: Metric>(
+pub(crate) fn within<P: Copy, G: Near<P>>(
     ground: &G,
     nearest: Option<Place>,
-    q: G::Point,
+    q: P,
     radius: f64,
 ) -> BTreeSet<Place> {
     let mut pending: Vec<Place> = nearest.into_iter().filter(|&v| ground.is_within(q, v, radius)).collect();

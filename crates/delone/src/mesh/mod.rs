@@ -12,6 +12,7 @@ pub use triangles::{Hull, Mesh2, MeshFlaw2, Star};
 
 /// The dimension of a set of points. There are five in the plane and in space, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Dimension {
     /// No point.
     Empty,

@@ -103,6 +103,7 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
+    #[doc(alias = "move_if_no_collision")]
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         self.move_unobserved(v, point.xy())
     }
@@ -169,6 +170,7 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NotFinite`] names the first bad coordinate, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing
     /// has changed then.
+    #[doc(alias = "add_points")]
     pub fn extend<P: Position2>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
         check_finite(points.iter().copied())?;

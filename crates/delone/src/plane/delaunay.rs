@@ -39,6 +39,7 @@ use crate::tally::{Counters, Work};
 /// }
 /// # Ok::<(), delone::Error>(())
 /// ```
+#[doc(alias("DelaunayTriangulation", "Delaunay_triangulation_2"))]
 #[derive(Clone, Debug)]
 pub struct Delaunay2 {
     pub(super) base: Layer,
@@ -81,6 +82,7 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned
     /// beyond [`MAX_POINTS`].
+    #[doc(alias = "bulk_load")]
     pub fn from_points<P: Position2>(points: &[P]) -> Result<Self, Error> {
         check_count(points.len(), MAX_POINTS)?;
         Self::divided(parallel::collect(points.len(), |i| points[i].xy()))
@@ -187,6 +189,7 @@ impl Delaunay2 {
     }
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
+    #[doc(alias = "coplanar")]
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         self.duplicates.iter(|v| self.mesh().contains(v))
     }
@@ -212,6 +215,7 @@ impl Delaunay2 {
     }
 
     /// The finite triangles as corners in counter-clockwise order.
+    #[doc(alias("simplices", "finite_faces", "inner_faces"))]
     pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
         self.mesh().triangles().map(|t| self.mesh().corners(t))
     }
@@ -230,21 +234,25 @@ impl Delaunay2 {
     }
 
     /// The finite edges, each once.
+    #[doc(alias("finite_edges", "undirected_edges"))]
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
     }
 
     /// The vertices joined to a vertex by an edge, counter-clockwise; none for an id that is no vertex.
+    #[doc(alias("neighbours", "incident_vertices", "vertex_neighbor_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().neighbors(v)
     }
 
     /// The vertices of the hull, counter-clockwise; of a line those from end to end; see [`Mesh2::hull`].
+    #[doc(alias = "convex_hull")]
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().hull()
     }
 
     /// The edges of the hull, counter-clockwise; none below the plane.
+    #[doc(alias("convex_hull", "hull_edges"))]
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
         self.mesh().hull_facets()
     }
@@ -286,6 +294,7 @@ impl Delaunay2 {
 
     /// The center of the circle through the corners of a finite triangle, correctly rounded (see
     /// [`delone_predicates::circumcenter`]), in coordinate units. `None` for a ghost, and where it is too far away for `f64`. O(1).
+    #[doc(alias("circumcentre", "dual"))]
     pub fn circumcenter(&self, t: TriangleId) -> Option<[f64; 2]> {
         if self.mesh().is_ghost(t) {
             return None;

@@ -23,7 +23,7 @@ use super::layer::insert::Spot;
 use crate::duplicates::Duplicates;
 use crate::error::Error;
 use crate::ids::{EdgeId, Inserted, MAX_POINTS, Place};
-use crate::locate::nearest::Metric;
+use crate::locate::nearest::Near;
 use crate::locate::{Start, Walk};
 use crate::mesh::Names;
 use crate::order;

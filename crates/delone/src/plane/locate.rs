@@ -16,6 +16,7 @@ use crate::tally::Tally;
 
 /// Where a point falls. A point of the plane is in exactly one of these places, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Location2 {
     /// Strictly inside this triangle.
     Triangle(TriangleId),
@@ -59,6 +60,7 @@ impl Delaunay2 {
     /// assert!(matches!(d.locate([4.0, 0.0])?, Location2::Vertex(v) if v.index() == 1));
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias("find_simplex", "point_location"))]
     pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
         self.locate_observed(q.xy(), &mut ())
     }

@@ -17,7 +17,7 @@ use super::layer::insert::Spot;
 use super::locator::Locator;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
-use crate::locate::nearest::{self, Metric};
+use crate::locate::nearest::{self, Near};
 use crate::points::{Position2, finite};
 use crate::tally::Tally;
 
@@ -26,7 +26,7 @@ pub(super) fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
     compare_distances(q, a, b).then_with(|| lexicographic(a, b))
 }
 
-impl Metric for Layer {
+impl Near<[f64; 2]> for Layer {
     fn nearer(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
         nearer(q, self.points[a.index()], self.points[b.index()])
     }
@@ -56,6 +56,7 @@ impl Delaunay2 {
     /// assert_eq!(d.nearest([2.0, 2.0])?.map(|v| v.index()), Some(0)); // all three are as near
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias = "nearest_vertex")]
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
         self.nearest_unobserved(q.xy())
     }
@@ -67,12 +68,13 @@ impl Delaunay2 {
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
     /// there is no other, and for an id that is no vertex.
+    #[doc(alias = "nearest_neighbour")]
     pub fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
         let (layer, place) = (&self.base, self.base.mesh.place(v)?);
         let q = layer.points[place.index()];
         let mut best = None;
         layer.beside(place, |w| {
-            if best.is_none_or(|best| Metric::nearer(layer, q, w, best).is_lt()) {
+            if best.is_none_or(|best| Near::nearer(layer, q, w, best).is_lt()) {
                 best = Some(w);
             }
         });
@@ -84,6 +86,7 @@ impl Delaunay2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    #[doc(alias("nearest_neighbours", "query"))]
     pub fn k_nearest<P: Position2>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xy())?;
         let found = nearest::k_nearest(&self.base, self.nearest_place(q, &mut ()), q, k);
@@ -94,6 +97,7 @@ impl Delaunay2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
+    #[doc(alias("query_ball_point", "vertices_in_circle"))]
     pub fn within<P: Position2>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xy())?;
         if !radius.is_finite() {

@@ -54,6 +54,7 @@ pub enum Algorithm3 {
 /// assert_eq!(triangulation.hull_facets().count(), 6);
 /// # Ok::<(), delone::Error>(())
 /// ```
+#[doc(alias = "Delaunay_triangulation_3")]
 #[derive(Clone, Debug, Default)]
 pub struct Delaunay3 {
     pub(super) base: Layer,
@@ -168,6 +169,7 @@ impl Delaunay3 {
     }
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
+    #[doc(alias = "coplanar")]
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         self.duplicates.iter(|v| self.base.mesh.contains(v))
     }
@@ -182,12 +184,27 @@ impl Delaunay3 {
         self.base.points[place.index()]
     }
 
+    /// The vertices with their coordinates, by increasing index. Of points that are no vertices, duplicates and those removed, nothing is
+    /// kept in space; so this is no slice by index, as in the plane.
+    ///
+    /// ```
+    /// use delone::{Delaunay3, VertexId};
+    ///
+    /// let d = Delaunay3::from_points(&[[0, 0, 0], [1, 0, 0], [0, 0, 0]])?;
+    /// assert!(d.points().eq([([0.0; 3], 0), ([1.0, 0.0, 0.0], 1)].map(|(p, i)| (VertexId::new(i), p))));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn points(&self) -> impl Iterator<Item = (VertexId, [f64; 3])> + '_ {
+        self.vertices().map(|v| (v, self.point(v)))
+    }
+
     /// The finite tetrahedra, by id. None below space.
     pub fn tetrahedron_ids(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
         self.base.tetrahedra()
     }
 
     /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
+    #[doc(alias("simplices", "finite_cells"))]
     pub fn tetrahedra(&self) -> impl Iterator<Item = [VertexId; 4]> + '_ {
         self.tetrahedron_ids().map(|t| self.base.mesh.corners(t))
     }
@@ -209,6 +226,7 @@ impl Delaunay3 {
     /// assert!(d.tetrahedron_ids().all(|t| d.circumcenter(t) == Some([0.2; 3])));
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias("circumcentre", "dual"))]
     pub fn circumcenter(&self, t: TetrahedronId) -> Option<[f64; 3]> {
         if self.base.mesh.is_ghost(t) {
             return None;
@@ -218,6 +236,7 @@ impl Delaunay3 {
     }
 
     /// The finite facets, each from one of its two sides; of coplanar points the triangles.
+    #[doc(alias = "finite_facets")]
     pub fn facets(&self) -> impl Iterator<Item = FacetId> + '_ {
         self.base.facets()
     }
@@ -225,11 +244,13 @@ impl Delaunay3 {
     /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
     /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
     /// none.
+    #[doc(alias = "convex_hull")]
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
         self.base.hull_facets()
     }
 
     /// The vertices on the hull by increasing index: the corners of [`Self::hull_facets`], so none of less than a plane.
+    #[doc(alias = "convex_hull")]
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         let mut corners: Vec<VertexId> = self.hull_facets().flatten().collect();
         corners.sort_unstable();
@@ -238,11 +259,13 @@ impl Delaunay3 {
     }
 
     /// The edges, each once, of whatever the points span.
+    #[doc(alias = "finite_edges")]
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.base.edges()
     }
 
     /// The vertices joined to a vertex by an edge; none for an id that is no vertex.
+    #[doc(alias("neighbours", "adjacent_vertices", "vertex_neighbor_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let joined = self.base.mesh.place(v).map(|p| self.neighbors_of(p, &mut Vec::new()));
         joined.unwrap_or_default().into_iter().map(|p| self.base.mesh.name(p))
@@ -250,6 +273,7 @@ impl Delaunay3 {
 
     /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex, and below
     /// space.
+    #[doc(alias = "incident_cells")]
     pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
         let mut star = Vec::new();
         if let Some(place) = self.base.mesh.place(v).filter(|_| self.dimension() == Dimension::Space) {

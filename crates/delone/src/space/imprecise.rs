@@ -14,7 +14,7 @@ use super::Delaunay3;
 use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Inserted, Place, TetrahedronId};
-use crate::locate::nearest::Metric;
+use crate::locate::nearest::Near;
 use crate::mesh::Names;
 use crate::order::random::SplitMix;
 use crate::order::{self, HintOrder};

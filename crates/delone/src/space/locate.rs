@@ -16,6 +16,7 @@ use crate::tally::Tally;
 
 /// Where a point of space falls. A point is in exactly one of these places, so a match may name them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Location3 {
     /// Strictly inside this tetrahedron.
     Tetrahedron(TetrahedronId),
@@ -52,6 +53,7 @@ impl Delaunay3 {
     /// assert!(matches!(d.locate([2.0, 2.0, 2.0])?, Location3::Outside(_)));
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias("find_simplex", "point_location"))]
     pub fn locate<P: Position3>(&self, q: P) -> Result<Location3, Error> {
         self.locate_observed(q.xyz(), &mut ())
     }

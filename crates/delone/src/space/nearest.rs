@@ -14,12 +14,12 @@ use super::layer::Layer;
 use super::layer::kernel::Lift;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
-use crate::locate::nearest::{self, Metric};
+use crate::locate::nearest::{self, Near};
 use crate::locate::{Ground, Nearest, Strategy};
 use crate::points::{Position3, finite};
 use crate::tally::Tally;
 
-impl<W: Lift> Metric for Layer<W> {
+impl<W: Lift> Near<[f64; 3]> for Layer<W> {
     fn nearer(&self, q: [f64; 3], a: Place, b: Place) -> Ordering {
         let (a, b) = (self.points[a.index()], self.points[b.index()]);
         compare_distances3(q, a, b).then_with(|| lexicographic3(a, b))
@@ -51,18 +51,20 @@ impl Delaunay3 {
     /// assert_eq!(d.k_nearest([0.0; 3], 2)?.len(), 2);
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias = "nearest_vertex")]
     pub fn nearest<P: Position3>(&self, q: P) -> Result<Option<VertexId>, Error> {
         Ok(self.nearest_place(finite(q.xyz())?, &mut ()).map(|v| self.base.mesh.name(v)))
     }
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
     /// there is no other, and for an id that is no vertex.
+    #[doc(alias = "nearest_neighbour")]
     pub fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
         let (layer, place) = (&self.base, self.base.mesh.place(v)?);
         let q = layer.points[place.index()];
         let mut best = None;
         layer.beside(place, |w| {
-            if best.is_none_or(|best| Metric::nearer(layer, q, w, best).is_lt()) {
+            if best.is_none_or(|best| Near::nearer(layer, q, w, best).is_lt()) {
                 best = Some(w);
             }
         });
@@ -74,6 +76,7 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    #[doc(alias("nearest_neighbours", "query"))]
     pub fn k_nearest<P: Position3>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xyz())?;
         let found = nearest::k_nearest(&self.base, self.nearest_place(q, &mut ()), q, k);
@@ -84,6 +87,7 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
+    #[doc(alias = "query_ball_point")]
     pub fn within<P: Position3>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xyz())?;
         if !radius.is_finite() {

@@ -137,9 +137,16 @@ pub(crate) struct Rows {
 
 /// [`rows`] for numbers of any size.
 pub(crate) fn big_rows<const D: usize>(sites: &[Site<D>]) -> Rows {
+    big_rows_and_last(sites).0
+}
+
+/// Rows of numbers of any size, and the last point on their scale.
+pub(crate) fn big_rows_and_last<const D: usize>(sites: &[Site<D>]) -> (Rows, Vec<BigInt>) {
     let coordinates: Vec<f64> = sites.iter().flat_map(|site| site.0).collect();
     let weights: Vec<f64> = sites.iter().map(|site| site.1).collect();
-    rows_of::<D>(&on_one_scale(&coordinates, &weights))
+    let mut scaled = on_one_scale(&coordinates, &weights);
+    let rows = rows_of::<D>(&scaled);
+    (rows, scaled.numbers.split_off(coordinates.len() - D))
 }
 
 fn rows_of<const D: usize>(Scaled { numbers, weights, scale }: &Scaled) -> Rows {

@@ -90,6 +90,7 @@ impl Mesh3 {
     }
 
     /// The tetrahedra across facets 0 to 3.
+    #[doc(alias("neighbors", "neighbours"))]
     pub fn adjacent(&self, t: TetrahedronId) -> [TetrahedronId; 4] {
         self.cells[t.index()].across.map(FacetId::tetrahedron)
     }

@@ -30,6 +30,7 @@ impl Mesh2 {
 
     /// The edges that leave a vertex, counter-clockwise, those to the ghost vertex included. Empty for an
     /// index that is no vertex, and for a lone one.
+    #[doc(alias("circulator", "incident_faces", "incident_edges", "out_edges"))]
     pub fn star(&self, v: VertexId) -> Star<'_> {
         self.place(v).map_or(Star { mesh: self, first: EdgeId::NONE, next: EdgeId::NONE }, |p| self.spokes(p))
     }
@@ -72,6 +73,7 @@ impl Mesh2 {
     }
 
     /// The vertices joined to `v` by an edge, counter-clockwise.
+    #[doc(alias("neighbours", "incident_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.star(v).map(|e| self.destination(e)).filter(|w| !w.is_ghost())
     }
@@ -98,6 +100,7 @@ impl Mesh2 {
 
     /// The vertices on the border of the convex hull, counter-clockwise, those inside a hull edge included;
     /// the vertices from end to end of a line; or the only vertex.
+    #[doc(alias = "convex_hull")]
     pub fn hull(&self) -> Hull<'_> {
         Hull(self.border())
     }

@@ -99,6 +99,7 @@ impl Mesh2 {
     }
 
     /// The twin: the edge in the other direction, of the triangle on the other side.
+    #[doc(alias("mirror_edge", "rev", "opposite"))]
     #[inline]
     pub fn twin(&self, e: EdgeId) -> EdgeId {
         self.edges[e.index()].twin
@@ -117,11 +118,13 @@ impl Mesh2 {
     }
 
     /// The triangles across edges 0, 1 and 2 of a triangle.
+    #[doc(alias("neighbors", "neighbours"))]
     pub fn adjacent(&self, t: TriangleId) -> [TriangleId; 3] {
         [0, 1, 2].map(|k| self.twin(t.edge(k)).triangle())
     }
 
     /// Whether a corner of the triangle is the vertex at infinity.
+    #[doc(alias = "is_infinite")]
     #[inline]
     pub fn is_ghost(&self, t: TriangleId) -> bool {
         self.places(t).contains(&Place::GHOST)

@@ -63,6 +63,7 @@ impl Constrained2 {
     /// # Errors
     /// [`Error::SegmentsCross`] if two segments cross at no vertex, [`Error::NoSuchPoint`] for an index that is none,
     /// [`Error::NotFinite`] and [`Error::TooManyPoints`] as [`Delaunay2::from_points`].
+    #[doc(alias = "bulk_load_cdt")]
     pub fn from_parts<P: Position2>(points: &[P], segments: &[[usize; 2]]) -> Result<Self, Error> {
         Self::with_crossings(points, segments, Crossings::Refuse)
     }

@@ -214,6 +214,7 @@ impl Constrained2 {
     /// assert!(c.insert_segment(corners[1], corners[3]).is_ok());
     /// # Ok::<(), delone::Error>(())
     /// ```
+    #[doc(alias("insert_constraint", "add_constraint"))]
     pub fn insert_segment(&mut self, a: VertexId, b: VertexId) -> Result<SegmentId, Error> {
         let s = self.segments.next();
         self.cover_with(s, [a, b])?;
@@ -263,6 +264,7 @@ impl Constrained2 {
     ///
     /// # Errors
     /// [`Error::NoSuchSegment`] if it is not there (any more), or has no length.
+    #[doc(alias("remove_constraint", "remove_constraint_edge"))]
     pub fn remove_segment(&mut self, s: SegmentId) -> Result<(), Error> {
         if self.segments.ends(s).is_none() {
             return Err(Error::NoSuchSegment { segment: s.index() });

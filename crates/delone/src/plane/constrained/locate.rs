@@ -13,6 +13,7 @@ impl Constrained2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    #[doc(alias("find_simplex", "point_location"))]
     pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
         self.graph.locate(q)
     }

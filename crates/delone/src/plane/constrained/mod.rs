@@ -77,6 +77,7 @@ use trace::Ground;
 /// assert_eq!(inside, 14.0);
 /// # Ok::<(), delone::Error>(())
 /// ```
+#[doc(alias("ConstrainedDelaunayTriangulation", "Constrained_Delaunay_triangulation_2"))]
 #[derive(Clone, Debug, Default)]
 pub struct Constrained2 {
     /// A triangulation with fixed edges: Delaunay but for these.
@@ -133,11 +134,13 @@ impl Constrained2 {
     }
 
     /// Whether an edge is a constraint.
+    #[doc(alias("is_constrained", "is_constraint_edge"))]
     pub fn is_constraint(&self, e: EdgeId) -> bool {
         self.mesh().is_fixed(e)
     }
 
     /// The constraint edges, each once, the lesser end first.
+    #[doc(alias = "constrained_edges")]
     pub fn constraints(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.constraint_edges().map(|e| {
             let ends = [self.mesh().origin(e), self.mesh().destination(e)];
@@ -222,6 +225,7 @@ impl Constrained2 {
     }
 
     /// The finite triangles as corners in counter-clockwise order.
+    #[doc(alias("simplices", "finite_faces", "inner_faces"))]
     pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
         self.graph.triangles()
     }
@@ -242,16 +246,19 @@ impl Constrained2 {
     }
 
     /// The vertices joined to a vertex by an edge, counter-clockwise; none for an id that is no vertex.
+    #[doc(alias("neighbours", "incident_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.graph.neighbors(v)
     }
 
     /// The vertices of the hull, counter-clockwise; see [`Mesh2::hull`].
+    #[doc(alias = "convex_hull")]
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.graph.hull_vertices()
     }
 
     /// The edges of the hull, counter-clockwise; none below the plane.
+    #[doc(alias("convex_hull", "hull_edges"))]
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
         self.graph.hull_facets()
     }

@@ -69,6 +69,7 @@ impl Constrained2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    #[doc(alias = "nearest_vertex")]
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
         Ok(self.k_nearest(q, 1)?.first().copied())
     }

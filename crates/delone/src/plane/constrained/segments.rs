@@ -12,6 +12,7 @@ use crate::ids::VertexId;
 
 /// A segment of the input, by its index, or one inserted later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
 pub struct SegmentId(pub(super) u32);
 
 impl SegmentId {

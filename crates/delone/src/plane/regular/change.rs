@@ -7,15 +7,19 @@
 //! Cost: the walk and the cavity or the star, and O(log h) for each site that was above a triangle that is gone; while all
 //! sites are on one line, for all of them.
 
+use std::ops::Range;
+
 use super::Regular2;
+use super::build::divide_and_conquer;
 use super::settle::Settled;
 use crate::error::Error;
 use crate::hidden::heaviest_first;
 use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::{Start, Strategy, Walk};
 use crate::mesh::Names;
+use crate::order;
 use crate::plane::layer::insert::Spot;
-use crate::points::{Position2, check_weights, finite};
+use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 
 /// Vertices, up to which hints are not made anew: any hint is near.
 const UNHINTED_VERTICES: usize = 32;
@@ -46,6 +50,73 @@ impl Regular2 {
         self.locate_under();
         self.settle(v, place, spot);
         Ok(Inserted::New(v))
+    }
+
+    /// Adds many sites, in an order along a curve that the seed decides and that does not show in the triangles. Site i gets the i-th id
+    /// after those given before: also one that equals another, which is reported by [`Self::duplicates`]. Returns the ids as a range of
+    /// indices.
+    ///
+    /// Cost: that of as many insertions. Where many are added to few, [`Self::from_sites`] of all is faster.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::Weight`] name the first bad number, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing has
+    /// changed then.
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let mut r = Regular2::from_sites(&[([0, 0], 0.0), ([4, 0], 0.0), ([0, 4], 0.0)])?;
+    /// assert_eq!(r.extend(&[([1, 1], -9.0), ([4, 0], 0.0), ([4, 4], 1.0)], 0)?, 3..6);
+    /// assert_eq!((r.vertex_count(), r.hidden().count(), r.duplicates().count()), (4, 1, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn extend<P: Position2>(&mut self, sites: &[(P, f64)], seed: u64) -> Result<Range<usize>, Error> {
+        let (points, weights): (Vec<[f64; 2]>, Vec<f64>) = sites.iter().map(|(p, w)| (p.xy(), *w)).unzip();
+        check_finite(points.iter().copied())?;
+        check_weights(&weights)?;
+        let first = self.ids_given();
+        check_count(first + sites.len(), MAX_POINTS)?;
+        self.base.mesh.names.get_or_insert_with(Names::default).reserve(sites.len());
+        self.locate_under();
+        for i in order::plane::insertion_order(&points, seed).into_iter().map(|i| i as usize) {
+            let (spot, _) = self.spot(points[i]);
+            let place = self.base.place_for(spot, points[i]);
+            self.base.weights[place.index()] = weights[i];
+            self.settle(VertexId::new(first + i), place, spot);
+        }
+        Ok(first..first + sites.len())
+    }
+
+    /// Forgets the ids of all sites that were removed, and the duplicates. The others, hidden ones too, get new ids, from 0 on in the order
+    /// of the old ones. Returns the new id for each old one, `None` for what is gone. Triangles have new ids too.
+    ///
+    /// Cost: that of a construction.
+    ///
+    /// ```
+    /// use delone::{Regular2, VertexId};
+    ///
+    /// let mut r = Regular2::from_sites(&[([0, 0], 0.0), ([4, 0], 0.0), ([0, 4], 0.0), ([1, 1], -9.0)])?;
+    /// r.remove(VertexId::new(0))?;
+    /// let ids = r.compact();
+    /// assert_eq!((ids[0], ids[3].and_then(|v| r.site(v))), (None, Some(([1.0, 1.0], -9.0))));
+    /// assert_eq!(r.ids_given(), 3);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn compact(&mut self) -> Vec<Option<VertexId>> {
+        let mut ids: Vec<Option<VertexId>> = vec![None; self.ids_given()];
+        let mut is_kept: Vec<bool> = (0..ids.len()).map(|i| self.site(VertexId::new(i)).is_some()).collect();
+        self.duplicates().for_each(|duplicate| is_kept[duplicate.point] = false);
+        let (mut points, mut weights) = (Vec::new(), Vec::new());
+        for (i, id) in ids.iter_mut().enumerate().filter(|(i, _)| is_kept[*i]) {
+            if let Some((point, weight)) = self.site(VertexId::new(i)) {
+                *id = Some(VertexId::new(points.len()));
+                points.push(point);
+                weights.push(weight);
+            }
+        }
+        // It is a function of its sites.
+        *self = divide_and_conquer(&points, &weights);
+        ids
     }
 
     /// Takes a site away, hidden or not. Those that only it hid are vertices then. O(log n) on average.

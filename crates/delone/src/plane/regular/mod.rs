@@ -13,14 +13,13 @@ mod areas;
 mod build;
 mod change;
 mod check;
+mod nearest;
 mod power;
 mod reweigh;
 mod settle;
 mod triangulation;
 
 use std::sync::OnceLock;
-
-use delone_predicates::compare_powers;
 
 use crate::error::Error;
 use crate::hidden::HiddenSites;
@@ -63,6 +62,7 @@ pub use power::{Jacobian2, Power2};
 /// r.check()?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias("Regular_triangulation_2", "weighted"))]
 #[derive(Clone, Debug)]
 pub struct Regular2 {
     base: Layer<Power>,
@@ -160,6 +160,7 @@ impl Regular2 {
     }
 
     /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
+    #[doc(alias = "hidden_vertices")]
     pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.under.hidden()
     }
@@ -193,6 +194,22 @@ impl Regular2 {
         self.mesh().triangles()
     }
 
+    /// The point that has the same power to the corners of a finite triangle, correctly rounded: a corner of the power diagram, as
+    /// [`Power2::vertex`]. With equal weights the circumcenter. `None` for a ghost, and where it is too far away for `f64`. O(1).
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let r = Regular2::from_sites(&[([0, 0], 0.0), ([4, 0], 8.0), ([0, 4], 0.0)])?;
+    /// let t = r.triangle_ids().next().expect("one");
+    /// assert_eq!(r.power_center(t), Some([1.0, 2.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[doc(alias("weighted_circumcenter", "circumcenter", "dual"))]
+    pub fn power_center(&self, t: TriangleId) -> Option<[f64; 2]> {
+        self.power().vertex(t)
+    }
+
     /// All edges, each once.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
@@ -205,45 +222,6 @@ impl Regular2 {
     pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
         let q = finite(q.xy())?;
         Ok(self.base.classify(self.spot(q).0, q))
-    }
-
-    /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
-    /// smallest. None where there is no vertex. O(log n) on average on evenly spread sites.
-    ///
-    /// # Errors
-    /// [`Error::Coordinate`] if a coordinate is not finite.
-    pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        let q = finite(q.xy())?;
-        let (spot, _) = self.spot(q);
-        let from = match spot {
-            Spot::Empty => return Ok(None),
-            Spot::Vertex(v) | Spot::End(v) => v,
-            Spot::BesidePoint => self.base.mesh.lone.unwrap_or(Place::new(0)),
-            Spot::Segment(e) => self.base.mesh.tail(e),
-            Spot::BesideLine(t) | Spot::Triangle(t) => {
-                let corners = self.base.mesh.places(t).into_iter().find(|p| !p.is_ghost());
-                corners.unwrap_or(Place::new(0))
-            }
-        };
-        // Along edges downhill: a vertex that no neighbor has less power than is the lowest of a convex hull.
-        let site = |p: Place| self.base.site(p);
-        let less = |a: Place, b: Place| {
-            let order = compare_powers(q, site(a), site(b));
-            order.then_with(|| delone_predicates::lexicographic(site(a).0, site(b).0)).is_lt()
-        };
-        let mut best = from;
-        loop {
-            let before = best;
-            let around = self.base.mesh.lone.is_none().then(|| self.base.mesh.spokes(before));
-            for w in around.into_iter().flatten().map(|e| self.base.mesh.head(e)).filter(|w| !w.is_ghost()) {
-                if less(w, best) {
-                    best = w;
-                }
-            }
-            if best == before {
-                return Ok(Some(self.mesh().name(best)));
-            }
-        }
     }
 
     fn spot(&self, q: [f64; 2]) -> (Spot, usize) {

@@ -1,5 +1,7 @@
 //! The common traits of triangulations for regular ones; files and pictures stand on them.
 
+use std::ops::Range;
+
 use super::Regular2;
 use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, TriangleId, VertexId};
@@ -114,7 +116,19 @@ impl Regular for Regular2 {
         self.set_weights(weights)
     }
 
+    fn extend(&mut self, sites: &[([f64; 2], f64)], seed: u64) -> Result<Range<usize>, Error> {
+        self.extend(sites, seed)
+    }
+
     fn nearest(&self, q: [f64; 2]) -> Result<Option<VertexId>, Error> {
         self.nearest(q)
+    }
+
+    fn k_nearest(&self, q: [f64; 2], k: usize) -> Result<Vec<VertexId>, Error> {
+        self.k_nearest(q, k)
+    }
+
+    fn within(&self, q: [f64; 2], power: f64) -> Result<Vec<VertexId>, Error> {
+        self.within(q, power)
     }
 }

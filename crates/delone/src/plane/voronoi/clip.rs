@@ -26,6 +26,7 @@ pub(super) const PREFETCH_DISTANCE: usize = 16;
 
 impl Voronoi2<'_> {
     /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
+    #[doc(alias = "voronoi_finite_polygons")]
     pub fn clip(self, region: &Region2) -> Cells2 {
         self.clip_with(region, |_| {})
     }

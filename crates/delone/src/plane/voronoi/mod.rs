@@ -13,6 +13,7 @@
 //!
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbors.
 
+mod borders;
 pub(in crate::plane) mod build;
 pub(in crate::plane) mod cells;
 pub(in crate::plane) mod centers;
@@ -48,6 +49,7 @@ use crate::ids::{EdgeId, TriangleId, VertexId};
 /// assert_eq!(d.vertices().map(|v| cells.area(v)).sum::<f64>(), 16.0);
 /// # Ok::<(), delone::Error>(())
 /// ```
+#[doc(alias = "Voronoi_diagram_2")]
 #[derive(Clone, Copy, Debug)]
 pub struct Voronoi2<'a> {
     triangulation: &'a Delaunay2,
@@ -119,6 +121,7 @@ impl<'a> Voronoi2<'a> {
     }
 
     /// The Voronoi edges, one for each finite Delaunay edge, in the order of [`crate::Mesh2::undirected_edges`].
+    #[doc(alias("undirected_voronoi_edges", "ridge_vertices"))]
     pub fn edges(self) -> impl Iterator<Item = VoronoiEdge2> + 'a {
         self.triangulation.mesh().undirected_edges().map(move |e| self.edge(e))
     }
@@ -145,6 +148,7 @@ impl<'a> Voronoi2<'a> {
 
     /// The corners of a cell, counter-clockwise; those of an unbounded cell from ray to ray, and without those too
     /// far away for `f64`. Corners that coincide because sites are on one circle appear once.
+    #[doc(alias("voronoi_face", "point_region"))]
     pub fn corners(self, site: VertexId) -> impl Iterator<Item = [f64; 2]> + 'a {
         let mesh = self.triangulation.mesh();
         // From the hull edge on, if there is one: the ghost is on its right.
@@ -155,6 +159,7 @@ impl<'a> Voronoi2<'a> {
     }
 
     /// The sites whose cells share more than a point with a cell, counter-clockwise.
+    #[doc(alias("neighbours", "ridge_points"))]
     pub fn neighbors(self, site: VertexId) -> impl Iterator<Item = VertexId> + 'a {
         let mesh = self.triangulation.mesh();
         let finite = mesh.star(site).filter(|&e| !mesh.destination(e).is_ghost());

@@ -20,6 +20,7 @@ impl Voronoi2<'_> {
     ///
     /// O(d^2) for a vertex with d neighbors that have as many. All cells are clipped where rounding has turned a ring near by over,
     /// because then corners are moved that cells share.
+    #[doc(alias("voronoi_face", "region"))]
     pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
         let base = &self.triangulation.base;

@@ -6,12 +6,15 @@
 //!
 //! Cost: the walk and the cavity or the star, and O(log h) for each site that was above a tetrahedron that is gone.
 
+use std::ops::Range;
+
 use super::Regular3;
 use crate::error::Error;
 use crate::hidden::heaviest_first;
 use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::{Start, Strategy};
-use crate::points::{Position3, check_weights, finite};
+use crate::order;
+use crate::points::{Position3, check_count, check_finite, check_weights, finite};
 use crate::regular::Reweighed;
 use delone_predicates::Site;
 
@@ -51,6 +54,80 @@ impl Regular3 {
                 Err(full)
             }
         }
+    }
+
+    /// Adds many sites, in an order along a curve that the seed decides and that does not show in the tetrahedra. Site i gets the i-th id
+    /// after those given before: also one that equals another, which is reported by [`Self::duplicates`]. Returns the ids as a range of
+    /// indices.
+    ///
+    /// Cost: that of as many insertions. Where many are added to few, [`Self::from_sites`] of all is faster.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::Weight`] name the first bad number, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing has
+    /// changed then. [`Error::TooManyTetrahedra`] leaves a part of the sites, the others as ids of none.
+    ///
+    /// ```
+    /// use delone::Regular3;
+    ///
+    /// let mut r = Regular3::from_sites(&[([0, 0, 0], 0.0), ([4, 0, 0], 0.0), ([0, 4, 0], 0.0), ([0, 0, 4], 0.0)])?;
+    /// assert_eq!(r.extend(&[([1, 1, 1], -9.0), ([4, 0, 0], 0.0), ([4, 4, 4], 1.0)], 0)?, 4..7);
+    /// assert_eq!((r.vertex_count(), r.hidden().count(), r.duplicates().count()), (5, 1, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn extend<P: Position3>(&mut self, sites: &[(P, f64)], seed: u64) -> Result<Range<usize>, Error> {
+        let (points, weights): (Vec<[f64; 3]>, Vec<f64>) = sites.iter().map(|(p, w)| (p.xyz(), *w)).unzip();
+        check_finite(points.iter().copied())?;
+        check_weights(&weights)?;
+        let first = self.ids_given();
+        check_count(first + sites.len(), MAX_POINTS_IN_SPACE)?;
+        self.base.mesh.names.reserve(sites.len());
+        self.locate_under();
+        let along = order::space::hilbert(points.len(), &|i| points[i as usize]);
+        for k in order::space::rounds(points.len(), seed) {
+            let i = along[k as usize] as usize;
+            let place = self.base.keep((points[i], weights[i]));
+            if let Err(full) = self.settle(VertexId::new(first + i), place) {
+                self.base.free_place(place);
+                return Err(full);
+            }
+        }
+        Ok(first..first + sites.len())
+    }
+
+    /// Forgets the ids of all sites that were removed, and the duplicates. The others, hidden ones too, get new ids, from 0 on in the order
+    /// of the old ones. Returns the new id for each old one, `None` for what is gone. Tetrahedra have new ids too.
+    ///
+    /// Cost: that of a construction.
+    ///
+    /// # Errors
+    /// [`Error::TooManyTetrahedra`] if there would be too many on the way. Nothing has changed then.
+    ///
+    /// ```
+    /// use delone::{Regular3, VertexId};
+    ///
+    /// let corners = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]].map(|p| (p, 0.0));
+    /// let mut r = Regular3::from_sites(&[&corners[..], &[([1, 1, 1], -9.0)]].concat())?;
+    /// r.remove(VertexId::new(0))?;
+    /// let ids = r.compact()?;
+    /// assert_eq!((ids[0], ids[4].and_then(|v| r.site(v))), (None, Some(([1.0; 3], -9.0))));
+    /// assert_eq!(r.ids_given(), 4);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn compact(&mut self) -> Result<Vec<Option<VertexId>>, Error> {
+        let mut ids: Vec<Option<VertexId>> = vec![None; self.ids_given()];
+        let mut is_kept: Vec<bool> = (0..ids.len()).map(|i| self.site(VertexId::new(i)).is_some()).collect();
+        self.duplicates().for_each(|duplicate| is_kept[duplicate.point] = false);
+        let (mut points, mut weights) = (Vec::new(), Vec::new());
+        for (i, id) in ids.iter_mut().enumerate().filter(|(i, _)| is_kept[*i]) {
+            if let Some((point, weight)) = self.site(VertexId::new(i)) {
+                *id = Some(VertexId::new(points.len()));
+                points.push(point);
+                weights.push(weight);
+            }
+        }
+        // It is a function of its sites.
+        *self = Self::from_parts(&points, &weights)?;
+        Ok(ids)
     }
 
     /// Takes a site away, hidden or not. Those that only it hid are vertices then. O(log n) on average on evenly spread sites.

@@ -10,19 +10,20 @@
 pub(super) mod build;
 mod change;
 mod check;
+mod nearest;
 mod triangulation;
 
 use std::sync::OnceLock;
 
-use delone_predicates::{compare_powers, lexicographic3};
+use delone_predicates::power_center3;
 
 use super::layer::Layer;
 use super::locate::Location3;
 use crate::error::Error;
 use crate::hidden::HiddenSites;
-use crate::ids::{Duplicate, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
+use crate::ids::{Duplicate, MAX_TETRAHEDRA, TetrahedronId, VertexId};
 use crate::locate::tree::Tree;
-use crate::locate::{Ground, Nearest, Start, Strategy};
+use crate::locate::{Start, Strategy};
 use crate::mesh::{Dimension, Mesh3};
 use crate::points::{Position3, check_in_space, check_weights, finite};
 use crate::tally::{Counters, Work};
@@ -50,6 +51,7 @@ use crate::tally::{Counters, Work};
 /// r.check()?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias("Regular_triangulation_3", "weighted"))]
 #[derive(Clone, Debug, Default)]
 pub struct Regular3 {
     base: Layer<f64>,
@@ -135,6 +137,7 @@ impl Regular3 {
     }
 
     /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
+    #[doc(alias = "hidden_vertices")]
     pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.under.hidden()
     }
@@ -164,6 +167,28 @@ impl Regular3 {
         self.tetrahedron_ids().map(|t| self.base.mesh.corners(t))
     }
 
+    /// The point that has the same power to the corners of a finite tetrahedron, correctly rounded (see
+    /// [`delone_predicates::power_center3`]): a corner of the power diagram. With equal weights the circumcenter. `None` for a ghost, and
+    /// where it is too far away for `f64`. O(1).
+    ///
+    /// ```
+    /// use delone::Regular3;
+    ///
+    /// let r = Regular3::from_sites(&[([0, 0, 0], 0.0), ([4, 0, 0], 8.0), ([0, 4, 0], 0.0), ([0, 0, 4], 0.0)])?;
+    /// let t = r.tetrahedron_ids().next().expect("one");
+    /// assert_eq!(r.power_center(t), Some([1.0, 2.0, 2.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[doc(alias("weighted_circumcenter", "circumcenter", "dual"))]
+    pub fn power_center(&self, t: TetrahedronId) -> Option<[f64; 3]> {
+        let mesh = &self.base.mesh;
+        if mesh.is_ghost(t) {
+            return None;
+        }
+        let [a, b, c, d] = mesh.cells[t.index()].corners.map(|p| self.base.site(p));
+        power_center3(a, b, c, d)
+    }
+
     /// The edges, each once, of whatever the sites span.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.base.edges()
@@ -179,35 +204,6 @@ impl Regular3 {
             return Ok(Location3::LowerDimensional(self.dimension()));
         }
         Ok(self.base.classify(self.cell_at(q), q, &mut ()))
-    }
-
-    /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
-    /// smallest. None where there is no vertex. O(log n) on average on evenly spread sites.
-    ///
-    /// # Errors
-    /// [`Error::Coordinate`] if a coordinate is not finite.
-    pub fn nearest<P: Position3>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        let q = finite(q.xyz())?;
-        if self.vertex_count() == 0 {
-            return Ok(None);
-        }
-        let near = self.base.near(self.start(q), q, Nearest::Corner, &mut ()).0;
-        let mut best =
-            if self.base.is_scaffold(near) { self.base.any_vertex().unwrap_or(near) } else { near };
-        // Along edges downhill: a vertex that no neighbor has less power than is the lowest of a convex hull.
-        let less = |a: Place, b: Place| {
-            let [a, b] = [a, b].map(|p| self.base.site(p));
-            compare_powers(q, a, b).then_with(|| lexicographic3(a.0, b.0)).is_lt()
-        };
-        let mut star = Vec::new();
-        loop {
-            let joined = self.base.joined_to(best, &mut star);
-            let lowest = joined.into_iter().fold(best, |best, w| if less(w, best) { w } else { best });
-            if lowest == best {
-                return Ok(Some(self.mesh().name(best)));
-            }
-            best = lowest;
-        }
     }
 
     /// The tetrahedra, to look at those that stand for what is missing below space.

@@ -1,5 +1,7 @@
 //! The common traits of triangulations for regular ones; files and pictures stand on them.
 
+use std::ops::Range;
+
 use super::Regular3;
 use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, TetrahedronId, VertexId};
@@ -119,7 +121,19 @@ impl Regular for Regular3 {
         self.set_weights(weights)
     }
 
+    fn extend(&mut self, sites: &[([f64; 3], f64)], seed: u64) -> Result<Range<usize>, Error> {
+        self.extend(sites, seed)
+    }
+
     fn nearest(&self, q: [f64; 3]) -> Result<Option<VertexId>, Error> {
         self.nearest(q)
+    }
+
+    fn k_nearest(&self, q: [f64; 3], k: usize) -> Result<Vec<VertexId>, Error> {
+        self.k_nearest(q, k)
+    }
+
+    fn within(&self, q: [f64; 3], power: f64) -> Result<Vec<VertexId>, Error> {
+        self.within(q, power)
     }
 }
