@@ -159,7 +159,8 @@ fn report(input: &Input, angle: f64, entries: &[Entry]) {
         let triangles = sample.triangles;
         let ratio = reference.map_or("-".to_owned(), |other| format!("{:.3}", steiner as f64 / other as f64));
         let seconds = median(samples, |sample| sample.seconds).unwrap_or(f64::NAN);
-        let bytes = median(samples, |sample| sample.bytes / triangles as f64).filter(|_| triangles >= MEASURED_TRIANGLES);
+        let bytes = median(samples, |sample| sample.bytes / triangles as f64)
+            .filter(|_| triangles >= MEASURED_TRIANGLES);
         let bytes = bytes.map_or("-".to_owned(), |bytes| format!("{bytes:.0}"));
         let remark = match (&verdict.wrong, verdict.below) {
             (Some(why), _) => format!("WRONG: {why}"),
