@@ -71,7 +71,7 @@ impl Trim {
     /// // Three squares, whose lower side is bent by a rounding error.
     /// let points = [[0.0, 0.0], [1.0, 1e-16], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0]];
     /// let d = Delaunay2::from_points(&points)?;
-    /// let rule = Border { slivers: Some(1e-9), ..Border::default() };
+    /// let rule = Border::default().slivers(1e-9);
     /// let trim = Trim::along_border(&d, &rule, |_| true);
     /// assert_eq!((d.triangle_count(), trim.slivers()), (5, 1));
     /// # Ok::<(), delone::Error>(())
