@@ -16,7 +16,10 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
     let mut reader = Reader::start(&bytes)?;
-    let cloud = reader.points()?;
+    let mut cloud = reader.points()?;
+    if reader.has_fields() {
+        cloud.losses.push("values of points and cells are left out".to_owned());
+    }
     let cells = if with_cells { reader.cells(cloud.xy.len())? } else { Cells::default() };
     Ok((cloud, cells))
 }
@@ -119,6 +122,12 @@ impl<'a> Reader<'a> {
         let mut cloud = Cloud::with_capacity(count, true);
         numbers.chunks_exact(3).for_each(|p| cloud.push([p[0], p[1]], p[2]));
         Ok(cloud)
+    }
+
+    /// Whether there are values of points or cells in the rest.
+    fn has_fields(&self) -> bool {
+        let is_heading = |line: &[u8]| line.starts_with(b"POINT_DATA ") || line.starts_with(b"CELL_DATA ");
+        self.bytes[self.at..].split(|&byte| byte == b'\n').any(is_heading)
     }
 
     /// Reads the cells of so many points, which follow them; up to what is no cell.

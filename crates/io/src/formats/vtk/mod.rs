@@ -64,6 +64,11 @@ fn broken(what: impl std::fmt::Display) -> Error {
     Error::content(format!("VTK: {what}"))
 }
 
+/// The loss of values of points and cells with these names.
+fn left_out(names: &str) -> String {
+    format!("values of points and cells are left out: {names}")
+}
+
 /// A number of an array that is text.
 fn number(word: &str) -> Result<f64, Error> {
     word.parse().map_err(|_| broken(format!("{:?} is no number", excerpt(word))))

@@ -96,6 +96,24 @@ fn binary_cells() {
 }
 
 #[test]
+fn values_are_told_as_left_out() {
+    let points = "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">0 0 0</DataArray></Points>";
+    let values = "<PointData><DataArray type=\"Float32\" Name=\"t\">1</DataArray></PointData><CellData><DataArray Name=\"p\"/></CellData>";
+    let file = |values: &str| {
+        format!("<VTKFile><UnstructuredGrid><Piece>{points}{values}</Piece></UnstructuredGrid></VTKFile>")
+    };
+    let losses = |text: String| read_xml(source(text.as_bytes())).expect("valid").losses;
+    assert_eq!(losses(file(values)), ["values of points and cells are left out: p, t"]);
+    assert!(losses(file("<PointData/>")).is_empty());
+    let legacy = |rest: &str| {
+        let text = format!("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n{GRID}{rest}");
+        read_legacy(source(text.as_bytes())).expect("valid").losses
+    };
+    assert_eq!(legacy("POINT_DATA 4\nSCALARS t float\n"), ["values of points and cells are left out"]);
+    assert!(legacy("VERTICES 1 2\n1 0\n").is_empty());
+}
+
+#[test]
 fn cells_of_all_pieces() {
     let piece = |kinds: &str, ends: &str, corners: &str| {
         let array = |name: &str, numbers: &str| {

@@ -1,6 +1,7 @@
 //! XML files of VTK (`.vtu`, `.vtp`) as ParaView and others write them: points and cells of all pieces; arrays as text, in
 //! base64 or appended, plain or compressed by zlib.
 
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::ops::Range;
 
@@ -11,7 +12,7 @@ use roxmltree::Node;
 
 use super::broken;
 use super::cells::{Cells, POLYGON, POLYLINE, STRIP};
-use crate::error::excerpt;
+use crate::error::{excerpt, listed};
 use crate::formats::numbers::Number;
 use crate::input::{Bounded, most_inflated};
 use crate::{Cloud, Error, Source, xml};
@@ -34,6 +35,7 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
     let document = xml::parse(&whole)?;
     let file = File::of(document.root_element(), appended)?;
     let (mut cloud, mut cells) = (Cloud::with_capacity(0, true), Cells::default());
+    let mut fields = BTreeSet::new();
     for piece in document.descendants().filter(|node| node.has_tag_name("Piece")) {
         let first = cloud.xy.len();
         for points in piece.children().filter(|node| node.has_tag_name("Points")) {
@@ -41,6 +43,9 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
                 file.points(array, &mut cloud)?;
             }
         }
+        let values = piece.children().filter(|node| FIELDS.iter().any(|name| node.has_tag_name(*name)));
+        let arrays = values.flat_map(|node| node.children()).filter(|node| node.has_tag_name("DataArray"));
+        fields.extend(arrays.map(|array| array.attribute("Name").unwrap_or("without a name")));
         if with_cells {
             let points = first..cloud.xy.len();
             for list in piece.children() {
@@ -50,8 +55,14 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
             }
         }
     }
+    if !fields.is_empty() {
+        cloud.losses.push(super::left_out(&listed(fields.into_iter())));
+    }
     Ok((cloud, cells))
 }
+
+/// The elements of a piece whose arrays are values.
+const FIELDS: [&str; 2] = ["PointData", "CellData"];
 
 /// How an XML file stores its arrays.
 struct File<'a> {
