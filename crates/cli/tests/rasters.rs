@@ -171,6 +171,8 @@ fn other_bands_pages_and_masks_beside_are_told() {
         "one.tif.msk: a mask beside the raster is not read",
     );
     place.fail("-q --strict relief one.tif -o two.tif", 1, "a mask beside the raster is not read");
+    // Only the place of its cells is wanted.
+    place.succeed("-q --strict dtm h.csv --like one.tif -o like.tif");
     // A pixel of three bands, uncompressed: a heading, a directory and its values.
     let mut tiff = b"II*\0\x08\0\0\0".to_vec();
     let entries: [(u16, u16, u32, u32); 10] = [

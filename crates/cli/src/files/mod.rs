@@ -110,11 +110,21 @@ pub(crate) fn open(
     what: &'static str,
     quiet: bool,
 ) -> Result<(Box<dyn Source>, Phase), Failure> {
-    let (source, phase) = open_raw(path, what, quiet)?;
-    let source = decompressed(source, format).map_err(|error| wrong(path, format, &error))?;
     if format == Format::Tiff {
         heed_mask(path, quiet);
     }
+    open_part(path, format, what, quiet)
+}
+
+/// Opens a file as [`open`] does, for a part of its content alone: nothing beside it is heeded.
+fn open_part(
+    path: &Path,
+    format: Format,
+    what: &'static str,
+    quiet: bool,
+) -> Result<(Box<dyn Source>, Phase), Failure> {
+    let (source, phase) = open_raw(path, what, quiet)?;
+    let source = decompressed(source, format).map_err(|error| wrong(path, format, &error))?;
     Ok((source, phase))
 }
 
@@ -274,7 +284,7 @@ pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Ra
 /// Reads where the cells of a raster are, and the system of its coordinates.
 pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Failure> {
     let format = format_beside(path)?;
-    let (source, _phase) = open(path, format, READING, quiet)?;
+    let (source, _phase) = open_part(path, format, READING, quiet)?;
     let place = delone_io::read_raster_place(source, format).map_err(|error| wrong(path, format, &error));
     let (grid, mut crs) = place?;
     systems::heed(&mut crs, path, Role::Beside)?;

@@ -21,7 +21,7 @@ const OFFSET: u64 = ChunkTable::OFFSET_SIZE as u64;
 /// Points decoded at a time: so few that they are still in the cache when their coordinates are taken.
 const BLOCK: u64 = 1 << 10;
 
-/// Bytes of chunks that are read before they are decoded, if all threads decode.
+/// Bytes of chunks that are read before they are decoded; a quarter of it where points are handed on in pieces.
 const READ_AHEAD_BYTES: u64 = 1 << 24;
 
 /// One chunk: where it is and how many points it has.
