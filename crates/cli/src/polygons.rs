@@ -21,7 +21,7 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_attributes(Contents::Patches);
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
-    let graph = files::graph(&input, None, quiet)?;
+    let graph = files::polygons(&input, quiet)?;
     let polygons = corners(&graph);
     if graph.is_border.contains(&false) {
         lost(quiet, "lines are left out: they are no polygons");

@@ -203,3 +203,55 @@ fn what_coordinates_mean_is_passed_on_or_told() {
     assert_eq!(told("triangulate plain.csv -o a.vtu").lines().count(), 1);
     assert_eq!(told("-q voronoi own.geojson -o a.geojson"), "");
 }
+
+/// Files beside a raster say what it does not, as GDAL sees them.
+#[test]
+fn files_beside_a_raster_are_read() {
+    let place = Place::new();
+    let write = |name: &str, text: &str| fs::write(place.path(name), text).expect("a file");
+    write("p.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n9,9,4\n");
+    place.succeed("-q dtm p.csv --cell 1 -o dem.asc -o dem.tif");
+    let system = |name: &str| {
+        place.succeed(&format!("-q contours {name} --interval 1 -o c.geojson"));
+        let map = fs::read_to_string(place.path("c.geojson")).expect("contours");
+        map.lines()
+            .next()
+            .and_then(|line| line.split("crs:").nth(1))
+            .map(|rest| rest.split('"').next().map(str::to_owned))
+    };
+    let epsg = |number: u32| Some(Some(format!("EPSG::{number}")));
+    assert_eq!([system("dem.asc"), system("dem.tif")], [None, None]);
+    write("dem.prj", "PROJCS[\"ETRS_1989_UTM_Zone_32N\",GEOGCS[\"GCS_ETRS_1989\"]]");
+    write(
+        "dem.tif.aux.xml",
+        "<PAMDataset><SRS dataAxisToSRSAxisMapping=\"1,2\">EPSG:25833</SRS></PAMDataset>",
+    );
+    assert_eq!([system("dem.asc"), system("dem.tif")], [epsg(25832), epsg(25833)]);
+    // That of the file goes before the other one's.
+    place.succeed("-q --epsg 31467 dtm p.csv --cell 1 -o other.tif");
+    assert_eq!(system("other.tif"), epsg(31467));
+    write("other.tif.aux.xml", "<PAMDataset><SRS>EPSG:25833</SRS></PAMDataset>");
+    assert_eq!(system("other.tif"), epsg(25833));
+    // What is not understood is told.
+    write("dem.prj", "Projection UTM\nZone 32\n");
+    write("dem.tif.aux.xml", "<PAMDataset><SRS>");
+    for (name, what) in [("dem.asc", "dem.prj: its system"), ("dem.tif", "dem.tif.aux.xml: XML")] {
+        let told = text(&place.run(&format!("contours {name} --interval 1 -o c.geojson")).stderr);
+        assert!(told.contains(what), "{told}");
+        place.fail(&format!("--strict contours {name} --interval 1 -o c.geojson"), 1, what);
+    }
+}
+
+#[test]
+fn polygons_are_needed_where_they_are_asked_for() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n0,1\n");
+    place.file("l.wkt", "LINESTRING (0 0, 1 0, 0 1, 0 0)\n");
+    for name in ["p.csv", "l.wkt"] {
+        place.fail(&format!("polygons {name} -o t.npy"), 1, &format!("{name}: there is no polygon in it"));
+    }
+    let drawing = "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n10\n4\n20\n0\n10\n0\n20\n3\n0\nENDSEC\n0\nEOF\n";
+    place.file("d.dxf", drawing);
+    place.succeed("polygons d.dxf -o t.wkt");
+    assert_eq!(fs::read_to_string(place.path("t.wkt")).expect("a triangle").matches("((").count(), 1);
+}

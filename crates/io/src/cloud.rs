@@ -1,5 +1,6 @@
 //! Points as they come from a file.
 
+use crate::error::listed;
 use crate::{Crs, Error, Features};
 
 /// Points in the order of their file: the coordinates that are triangulated, the heights beside them, and what else
@@ -42,6 +43,14 @@ impl Cloud {
         self.xy.push([x, y]);
         if let Some(heights) = &mut self.z {
             heights.push(z);
+        }
+    }
+
+    /// Tells that values of these names are left out; coordinates are none.
+    pub(crate) fn lose_values<'a>(&mut self, names: impl Iterator<Item = &'a str>) {
+        let names: Vec<&str> = names.filter(|name| !["x", "y", "z"].contains(name)).collect();
+        if !names.is_empty() {
+            self.losses.push(format!("values of points are left out: {}", listed(names.into_iter())));
         }
     }
 

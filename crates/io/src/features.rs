@@ -175,6 +175,20 @@ impl Table {
         (begin..end).map(|cell| (self.columns[cell] as usize, self.cell(cell)))
     }
 
+    /// Whether a number is infinite, which GeoJSON has no word for.
+    ///
+    /// ```
+    /// use delone_io::{Table, Value};
+    ///
+    /// let mut table = Table::default();
+    /// table.begin();
+    /// table.set("depth", Value::Number(f64::INFINITY));
+    /// assert!(table.has_infinities());
+    /// ```
+    pub fn has_infinities(&self) -> bool {
+        self.text.contains(BEYOND) && (0..self.ends.len()).any(|cell| is_infinite(self.cell(cell)))
+    }
+
     fn cell(&self, cell: usize) -> &str {
         let begin = if cell == 0 { 0 } else { self.ends[cell - 1] };
         &self.text[begin..self.ends[cell]]
@@ -259,8 +273,11 @@ impl Table {
             Value::Null => return,
             Value::Bool(is_so) => self.text.push_str(if is_so { "true" } else { "false" }),
             Value::Integer(number) => self.text.push_str(&number.to_string()),
-            // Other numbers have no JSON.
-            Value::Number(number) if !number.is_finite() => return,
+            Value::Number(number) if number.is_nan() => return,
+            // JSON has no word for it, and takes a number beyond all doubles, which readers round to it.
+            Value::Number(number) if number.is_infinite() => {
+                self.text.push_str(if number > 0.0 { BEYOND } else { MINUS_BEYOND });
+            }
             Value::Number(number) => self.text.push_str(&format!("{number:?}")),
             Value::Text(text) => self.text.push_str(&quoted(text)),
             Value::Owned(text) => self.text.push_str(&quoted(&text)),
@@ -364,6 +381,15 @@ impl<'a> Value<'a> {
             Self::Owned(text) => Cow::Owned(text.clone()),
         })
     }
+}
+
+/// Numbers that are rounded to the infinities.
+const BEYOND: &str = "1e999";
+const MINUS_BEYOND: &str = "-1e999";
+
+/// Whether a value as JSON is one of the infinities.
+pub(crate) fn is_infinite(cell: &str) -> bool {
+    cell == BEYOND || cell == MINUS_BEYOND
 }
 
 /// A name with the least number from 2 after it that nothing has.

@@ -62,7 +62,7 @@ pub use output::{
 pub use patches::{Patches, write_patches};
 pub use raster::{
     ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
-    ReliefRows, Sample, ShadeWriter, beside_raster, beside_raster_name, besides_of_raster, read_raster,
+    ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, read_raster,
     read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};
@@ -96,6 +96,8 @@ pub struct ReadOptions {
     pub dimension: usize,
     /// Attributes of features are read, not their names alone.
     pub attributes: bool,
+    /// Closed lines of drawings are polygons.
+    pub closed: bool,
 }
 
 /// Reads the points of a file, in its order.
@@ -250,7 +252,10 @@ pub fn read_graph(
 ) -> Result<Graph, Error> {
     let readers = format.readers();
     match (readers.shapes, readers.lines, readers.attributed) {
-        (Some(read), ..) => read(source, options, beside, Purpose::Lines)?.graph(),
+        (Some(read), ..) => {
+            let purpose = if options.closed { Purpose::Polygons } else { Purpose::Lines };
+            read(source, options, beside, purpose)?.graph()
+        }
         (None, Some(read), _) => read(source, options, beside),
         (None, None, Some(read)) => read(source),
         (None, None, None) => read_with(source, format, options, beside).map(Graph::of_points),

@@ -107,6 +107,12 @@ fn polys_of_osmosis_are_polygons() {
     let borders = read_rings(source(text), Format::Poly).expect("rings").rings;
     assert_eq!(borders.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3, 3]);
     assert_eq!(borders[1], [[3.0, 3.0], [4.0, 3.0], [4.0, 4.0]]);
+    // A hole need not follow the polygon that it is in, and one in none is told.
+    let late = "all\n1\n 1 2\n 5 2\n 5 6\nEND\n2\n 9 9\n 10 9\n 9 10\nEND\n!3\n 3 3\n 4 3\n 4 4\nEND\n!4\n 0 0\n 1 0\n 0 1\nEND\nEND\n";
+    let graph = good(Format::Poly, late);
+    let rings: Vec<_> = graph.rings.iter().map(|ring| (ring.polygon, ring.ring)).collect();
+    assert_eq!(rings, [(0, 0), (0, 1), (1, 0)]);
+    assert_eq!(graph.cloud.losses, ["1 holes are left out: no polygon is around them"]);
     let plain = "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n0\n";
     assert_eq!(read_rings(source(plain), Format::Poly).expect("a ring").rings.len(), 1);
     for (text, message) in [
@@ -129,8 +135,22 @@ fn lines_of_gmsh() {
     let elements =
         "$Elements\n4\n1 1 2 1 1 1 2\n2 8 2 1 1 2 7 9\n3 3 2 1 1 1 2 7 9\n4 15 2 1 1 1\n$EndElements\n";
     let graph = good(Format::Msh, format!("{head}{elements}"));
-    assert_eq!((graph.segments, graph.is_border), (vec![[0, 1], [1, 2]], vec![true; 2]));
+    assert_eq!((&graph.segments[..], &graph.is_border[..]), (&[[0, 1], [1, 2]][..], &[true; 2][..]));
     assert!(holds_lines(source(format!("{head}{elements}")), Format::Msh));
     assert!(!holds_lines(source(head), Format::Msh));
     assert_eq!(good(Format::Msh, head).cloud.xy.len(), 4);
+    // Physical groups are markers, and what else there is is told.
+    assert_eq!(graph.markers, Some(vec![1, 1]));
+    let groups = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 7 \"inlet\"\n1 9 \"wall\"\n$EndPhysicalNames\n\
+        $Entities\n1 3 0 0\n5 0 0 0 0\n1 0 0 0 1 0 0 1 -7 2 1 2\n2 0 0 0 1 0 0 0 2 1 2\n3 0 0 0 1 0 0 2 9 7 2 1 2\n$EndEntities\n\
+        $Nodes\n1 3 1 3\n0 5 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n\
+        $Elements\n3 3 1 3\n1 1 1 1\n1 1 2\n1 2 1 1\n2 2 3\n1 3 1 1\n3 3 1\n$EndElements\n$NodeData\n0\n$EndNodeData\n";
+    let graph = good(Format::Msh, groups);
+    assert_eq!((graph.segments.len(), graph.markers), (3, Some(vec![7, 0, 9])));
+    let losses = [
+        "names of physical groups are left out: 7 \"inlet\", 9 \"wall\"",
+        "sections are left out: NodeData",
+        "1 curves are in several physical groups: the first is taken",
+    ];
+    assert_eq!(graph.cloud.losses, losses);
 }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 use delone::{Bounds, Delaunay2};
-use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, beside_raster_name, write_contours};
+use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, besides_of_raster, write_contours};
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
@@ -99,7 +99,7 @@ fn keep_besides_apart(
     stats_path: Option<&Path>,
 ) -> Result<(), Failure> {
     let besides: Vec<PathBuf> =
-        outputs.iter().filter_map(|(path, format)| beside_raster_name(path, *format)).collect();
+        outputs.iter().flat_map(|(path, format)| besides_of_raster(path, *format)).collect();
     let named = outputs.iter().map(|output| output.0.as_path()).chain(stats_path);
     files::keep_names_apart(inputs, named.chain(besides.iter().map(PathBuf::as_path)))
 }

@@ -15,6 +15,7 @@ struct Known {
     names: Vec<String>,
     /// Some were asked for by name.
     are_asked: bool,
+    have_infinities: bool,
     unshown: Unshown,
 }
 
@@ -33,6 +34,7 @@ static KNOWN: Mutex<Known> = Mutex::new(Known {
     with: None,
     names: Vec::new(),
     are_asked: false,
+    have_infinities: false,
     unshown: Unshown { lines: None, hidden_polygons: false, points: false },
 });
 
@@ -64,7 +66,9 @@ pub(super) fn ask() {
 
 /// Keeps the names of the attributes of an input.
 pub(super) fn heed(cloud: &Cloud) {
-    let names = &mut KNOWN.lock().unwrap_or_else(PoisonError::into_inner).names;
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    known.have_infinities |= cloud.features.table.has_infinities();
+    let names = &mut known.names;
     for name in cloud.features.table.names() {
         if names.len() <= MOST_NAMES && !names.contains(name) {
             names.push(name.clone());
@@ -105,6 +109,8 @@ pub(super) fn tell(quiet: bool) {
         if !whose.is_empty() {
             let what = format!("the attributes of {whose} are left out: {}", names.join(", "));
             lost(quiet, format_args!("{}: {what}", path.display()));
+        } else if known.have_infinities && format == Format::GeoJson {
+            lost(quiet, format_args!("{}: infinite values are null in it", path.display()));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod apart;
 mod attributes;
+mod graphs;
 mod sides;
 mod systems;
 mod write;
@@ -10,12 +11,11 @@ use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
-use delone_io::{
-    Beside, Cloud, Contents, Crs, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed,
-};
+use delone_io::{Beside, Cloud, Contents, Crs, Direction, Format, Raster, ReadOptions, Source, decompressed};
 
 pub(crate) use apart::{beside, keep_apart, keep_names_apart};
 pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
+pub(crate) use graphs::{graph, graph_beside, graph_with_points, holds_lines, polygons, rings};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
 pub(crate) use write::{
@@ -197,6 +197,7 @@ pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
         dimensions: args.las.attributes.clone(),
         dimension,
         attributes: are_attributes_kept(),
+        closed: false,
     }
 }
 
@@ -232,7 +233,7 @@ fn read_all(
 pub(crate) fn heed(cloud: &mut Cloud, path: &Path, role: Role, quiet: bool) -> Result<(), Failure> {
     tell(cloud, Some(path), quiet);
     attributes::heed(cloud);
-    systems::heed(&mut cloud.crs, path, role)
+    systems::heed(&mut cloud.crs, path, role, quiet)
 }
 
 /// Tells of a file, or of several that were joined, what a user should know; once.
@@ -276,7 +277,7 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
 pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Raster, Failure> {
     let (source, _phase) = open(path, format, READING, quiet)?;
     let mut raster = delone_io::read_raster(source, format).map_err(|error| wrong(path, format, &error))?;
-    systems::heed(&mut raster.crs, path, Role::Input)?;
+    systems::heed(&mut raster.crs, path, Role::Input, quiet)?;
     raster.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     Ok(raster)
 }
@@ -287,71 +288,8 @@ pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Fai
     let (source, _phase) = open_part(path, format, READING, quiet)?;
     let place = delone_io::read_raster_place(source, format).map_err(|error| wrong(path, format, &error));
     let (grid, mut crs) = place?;
-    systems::heed(&mut crs, path, Role::Beside)?;
+    systems::heed(&mut crs, path, Role::Beside, quiet)?;
     Ok((grid, crs))
-}
-
-/// Reads the points and segments of a command.
-pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> Result<Graph, Failure> {
-    Ok(graph_with_points(args, segments, quiet)?.0)
-}
-
-/// Reads lines and polygons beside the input of a command.
-pub(crate) fn graph_beside(path: &Path, quiet: bool) -> Result<Graph, Failure> {
-    Ok(read_graph(&InputArgs::of(&[path.to_owned()]), None, Role::Beside, quiet)?.0)
-}
-
-/// The same, and says which files of points were read beside those that were named.
-pub(crate) fn graph_with_points(
-    args: &InputArgs,
-    segments: Option<&Path>,
-    quiet: bool,
-) -> Result<(Graph, Vec<PathBuf>), Failure> {
-    read_graph(args, segments, Role::Input, quiet)
-}
-
-fn read_graph(
-    args: &InputArgs,
-    segments: Option<&Path>,
-    role: Role,
-    quiet: bool,
-) -> Result<(Graph, Vec<PathBuf>), Failure> {
-    let mut besides = Vec::new();
-    let options = options(args, 2);
-    let mut all = Graph::default();
-    for path in &args.input {
-        let format = format(path, args.from, "--from")?;
-        let failed = |error| wrong(path, format, &error);
-        let (source, _phase) = open(path, format, READING, quiet)?;
-        let mut open = beside(path);
-        let mut beside = |extension: &str| {
-            let source = open(extension)?;
-            besides.push(apart::side(path, extension));
-            Ok(source)
-        };
-        let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
-        heed(&mut graph.cloud, path, role, quiet)?;
-        all.join(graph).map_err(failed)?;
-        limits::check_points(all.cloud.xy.len(), path)?;
-        tell(&mut all.cloud, None, quiet);
-    }
-    if let Some(path) = segments {
-        let format = format_beside(path)?;
-        let failed = |error| wrong(path, format, &error);
-        let (source, _phase) = open(path, format, READING, quiet)?;
-        let more = delone_io::read_segments(source, format).map_err(failed)?;
-        let count = all.cloud.xy.len();
-        let wrong = |(s, ends): (usize, &[usize; 2])| ends.iter().find(|&&i| i >= count).map(|&i| (s, i));
-        if let Some((segment, index)) = more.iter().enumerate().find_map(wrong) {
-            return Err(Failure::graph(path, &delone::Error::NoSuchPoint { segment, index, count }));
-        }
-        if let Some(markers) = &mut all.markers {
-            markers.resize(markers.len() + more.len(), 0);
-        }
-        all.is_border.resize(all.is_border.len() + more.len(), true);
-        all.segments.extend(more);
-    }
-    Ok((all, besides))
 }
 
 /// Reads a number for each point.
@@ -432,25 +370,6 @@ pub(crate) fn wrong(path: &Path, format: Format, error: &delone_io::Error) -> Fa
         _ = content.take(LENGTH).read_to_end(&mut beginning);
     }
     Failure::content(path, format, error, &beginning)
-}
-
-/// Whether a file is one of lines and polygons. Of standard input, and of pipes, the format alone tells.
-pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
-    let nothing: Box<dyn Source> = Box::new(Cursor::new(Vec::new()));
-    let content = if path.is_file() { apart::source(path) } else { Ok(nothing) };
-    let content = content.map_err(delone_io::Error::from).and_then(|source| decompressed(source, format));
-    content.is_ok_and(|source| delone_io::holds_lines(source, format))
-}
-
-/// Reads the rings of polygons.
-pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
-    let format = format_beside(path)?;
-    let (source, _phase) = open(path, format, READING, quiet)?;
-    let found = delone_io::read_rings_beside(source, format, &mut beside(path));
-    let mut found = found.map_err(|error| wrong(path, format, &error))?;
-    found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
-    systems::heed(&mut found.crs, path, Role::Beside)?;
-    Ok(found.rings)
 }
 
 /// Reads a text.

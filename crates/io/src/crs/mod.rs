@@ -1,6 +1,7 @@
 //! Coordinate reference systems: what a file says its coordinates mean. They are passed on, not transformed.
 
 mod codes;
+pub(crate) mod esri;
 pub(crate) mod keys;
 mod units;
 
@@ -130,7 +131,11 @@ impl Crs {
     /// ```
     pub fn agrees(&self, other: &Self) -> bool {
         match (self.epsg, other.epsg) {
-            (Some(ours), Some(theirs)) => ours == theirs,
+            (Some(ours), Some(theirs)) => {
+                // Of a compound system, one file says its number, and another one that of its horizontal part.
+                let is_part = self.is_compound() != other.is_compound() && self.name.is_some();
+                ours == theirs || is_part && self.name == other.name
+            }
             _ if self.is_plain_degrees() && other.is_plain_degrees() => true,
             (None, None) => self.name == other.name && (self.wkt == other.wkt || self.keys == other.keys),
             // Who names one by its number and who defines it otherwise may mean one system.

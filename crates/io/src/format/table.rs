@@ -262,7 +262,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "VTK's surfaces",
         names: &["vtp"],
         also: &[],
-        readers: OF_VTK,
+        readers: Readers { tetrahedra: None, ..OF_VTK },
         writes: &[],
     },
     Row {

@@ -26,6 +26,7 @@ pub(crate) mod ply;
 pub(crate) mod poly;
 pub(crate) mod ptx;
 pub(crate) mod raw;
+mod rings;
 pub(crate) mod shapefile;
 pub(crate) mod shapes;
 pub(crate) mod stl;

@@ -1,11 +1,12 @@
-//! Wavefront: vertices (`v x y z`), faces (`f a b c`), lines (`l a b c ...`); everything else is passed over.
+//! Wavefront: vertices (`v x y z`), faces (`f a b c`), lines (`l a b c ...`). Other lines are passed over, and named.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use super::in_space;
 use super::lines::{Line, Lines};
-use crate::error::excerpt;
-use crate::{Cloud, Error, Graph, Shape, Source};
+use crate::error::{excerpt, listed};
+use crate::{Cloud, Crs, Error, Graph, Shape, Source};
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     read(source, |_, _, _| Ok(()))
@@ -50,19 +51,37 @@ fn read(
     let mut lines = Lines::new(source);
     let mut cloud = Cloud::with_capacity(0, true);
     let mut is_first = true;
-    while let Some(line) = lines.next()? {
-        let mut words = line.text.split_whitespace();
-        if std::mem::take(&mut is_first) && !words.clone().next().is_none_or(is_keyword) {
-            return Err(line.error(format!("{:?} begins no line of an OBJ file", excerpt(line.text))));
+    let mut others = BTreeSet::new();
+    let mut has_values = false;
+    while let Some(line) = lines.next_whole()? {
+        let (text, remark) = line.text.split_once('#').unwrap_or((line.text, ""));
+        if cloud.crs.is_none() {
+            cloud.crs = remark.trim().strip_prefix("crs ").and_then(Crs::of_name);
         }
-        match words.next() {
-            Some("v") => {
+        let mut words = text.split_whitespace();
+        let Some(keyword) = words.next() else { continue };
+        if std::mem::take(&mut is_first) && !is_keyword(keyword) {
+            return Err(line.error(format!("{:?} begins no line of an OBJ file", excerpt(text.trim()))));
+        }
+        match keyword {
+            "v" => {
                 let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
                 cloud.push(xy, line.number(words.next(), "z")?);
+                // A weight, or a color.
+                has_values |= words.next().is_some();
             }
-            Some("l") => take(&line, words, cloud.xy.len() as i64)?,
+            "l" => take(&line, words, cloud.xy.len() as i64)?,
+            "f" | "p" => {}
+            _ if !others.contains(keyword) => {
+                others.insert(keyword.to_owned());
+            }
             _ => {}
         }
+    }
+    cloud.lose_values(has_values.then_some("numbers after z").into_iter());
+    if !others.is_empty() {
+        let names = listed(others.iter().map(String::as_str));
+        cloud.losses.push(format!("lines of other kinds are left out: {names}"));
     }
     Ok(cloud)
 }
@@ -135,5 +154,17 @@ mod tests {
         }
         assert_eq!(read("# nothing\n\nmtllib a.mtl\n").expect("no points").xy.len(), 0);
         assert_eq!(read("").expect("no points").xy.len(), 0);
+        let cloud =
+            read("# crs EPSG:25832\nvn 0 0 1\nv 1 2 3 # here\nusemtl red\nv 4 5 6 255 0 0\nvn 0 0 1\n");
+        let cloud = cloud.expect("two points");
+        assert_eq!(cloud.xy, [[1.0, 2.0], [4.0, 5.0]]);
+        assert_eq!(cloud.crs, Some(crate::Crs::of_epsg(25832)));
+        assert_eq!(
+            cloud.losses,
+            [
+                "values of points are left out: numbers after z",
+                "lines of other kinds are left out: usemtl, vn"
+            ]
+        );
     }
 }

@@ -1,11 +1,13 @@
 //! The `.poly` files of Osmosis: polygons of longitude and latitude, which are cut out of maps. They share their extension with those of
 //! Triangle, and begin with a name where these begin with a number.
 //!
-//! A name for all; then sections, each with a name, a position a line, and `END`; then `END`. A name with `!` before it is a hole.
+//! A name for all; then sections, each with a name, a position a line, and `END`; then `END`. A name with `!` before it is a hole, in
+//! whichever of the polygons, which need not be the one before it.
 //!
 //! Source: <https://wiki.openstreetmap.org/wiki/Osmosis/Polygon_Filter_File_Format>.
 
 use super::lines::Lines;
+use super::rings::{Ring, polygons};
 use super::shapes::Shapes;
 use crate::{Crs, Error, Source};
 
@@ -25,7 +27,7 @@ pub(super) fn read(source: Box<dyn Source>) -> Result<Shapes, Error> {
     let mut lines = Lines::new(source);
     let mut shapes = Shapes::default();
     shapes.crs = Some(Crs::of_epsg(EPSG));
-    let mut is_first = true;
+    let mut sections: Vec<(Vec<[f64; 2]>, bool)> = Vec::new();
     lines.next()?;
     loop {
         let Some(line) = lines.next()? else {
@@ -34,11 +36,8 @@ pub(super) fn read(source: Box<dyn Source>) -> Result<Shapes, Error> {
         if line.text.eq_ignore_ascii_case(END) {
             break;
         }
-        if is_first || !line.text.starts_with('!') {
-            shapes.polygon();
-        }
-        is_first = false;
-        let start = shapes.len();
+        let is_hole = line.text.starts_with('!');
+        let mut positions = Vec::new();
         loop {
             let Some(line) = lines.next()? else {
                 return Err(Error::Truncated(format!("inside a polygon, without {END}")));
@@ -47,11 +46,31 @@ pub(super) fn read(source: Box<dyn Source>) -> Result<Shapes, Error> {
                 break;
             }
             let mut words = line.text.split_whitespace();
-            let position =
-                [line.number(words.next(), "the longitude")?, line.number(words.next(), "the latitude")?];
-            shapes.position(&position);
+            positions.push([
+                line.number(words.next(), "the longitude")?,
+                line.number(words.next(), "the latitude")?,
+            ]);
         }
-        shapes.ring(start, true);
+        sections.push((positions, is_hole));
+    }
+    let rings: Vec<Ring> = sections.iter().map(|section| Ring::of(section.0.clone())).collect();
+    let mut alone = 0;
+    for polygon in polygons(&rings, |section| sections[section].1) {
+        if sections[polygon[0]].1 {
+            alone += 1;
+            continue;
+        }
+        shapes.polygon();
+        for section in polygon {
+            let start = shapes.len();
+            for position in &sections[section].0 {
+                shapes.position(position);
+            }
+            shapes.ring(start, true);
+        }
+    }
+    if alone > 0 {
+        shapes.losses.push(format!("{alone} holes are left out: no polygon is around them"));
     }
     Ok(shapes)
 }

@@ -80,6 +80,7 @@ pub(crate) fn read(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
         }
         other => return Err(broken(format!("data of kind {:?} are not read", excerpt(other)))),
     }
+    cloud.lose_values(header.fields.iter().map(|field| field.name.as_str()));
     if failed > 0 {
         cloud.remarks.push(format!("{failed} points without coordinates were left out"));
     }

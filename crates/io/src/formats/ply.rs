@@ -135,6 +135,9 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
         return Err(broken("it has no vertices"));
     }
     let mut cloud = points.unwrap_or_default();
+    if let Some(vertex) = header.elements.get("vertex") {
+        cloud.lose_values(vertex.properties.keys().map(String::as_str));
+    }
     cloud.crs = header.comments.iter().find_map(|comment| Crs::of_name(comment.strip_prefix("crs ")?));
     Ok(cloud)
 }

@@ -5,7 +5,7 @@
 //!
 //! Source: Leica Geosystems, "PTX format". Coordinates are rounded by 8 units in the last place of the largest term at most.
 
-use super::lines::Lines;
+use super::lines::{Line, Lines};
 use crate::{Cloud, Error, Source};
 
 /// Reads the measurements of all scans.
@@ -13,6 +13,7 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
     let mut cloud = Cloud::with_capacity(0, true);
     let mut empty = 0_usize;
+    let (mut has_intensities, mut has_colors) = (false, false);
     while let Some(line) = lines.next()? {
         let columns: u64 = line.number(line.text.split_whitespace().next(), "the number of columns")?;
         let [rows] = numbers::<1>(&mut lines, "the number of rows")?;
@@ -27,7 +28,13 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
         let wrong = || Error::content(format!("PTX: a scan of {columns} columns and {rows} rows"));
         let cells = if rows.fract() == 0.0 { columns.checked_mul(rows as u64) } else { None };
         for _ in 0..cells.ok_or_else(wrong)? {
-            let p: [f64; 3] = numbers(&mut lines, "a measurement")?;
+            let line = lines.next()?.ok_or_else(|| Error::Truncated("before a measurement".to_owned()))?;
+            let p: [f64; 3] = first(&line, "a measurement")?;
+            if !(has_intensities && has_colors) {
+                let more = line.text.split_whitespace().count() - p.len();
+                has_intensities |= more > 0;
+                has_colors |= more > 1;
+            }
             if p == [0.0; 3] {
                 empty += 1;
                 continue;
@@ -37,6 +44,8 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
             cloud.push([axis(0), axis(1)], axis(2));
         }
     }
+    let values = [("intensity", has_intensities), ("color", has_colors)];
+    cloud.lose_values(values.into_iter().filter(|value| value.1).map(|value| value.0));
     if empty > 0 {
         cloud.remarks.push(format!("{empty} cells without a measurement are left out"));
     }
@@ -45,7 +54,11 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
 
 /// The numbers at the beginning of the next line.
 fn numbers<const N: usize>(lines: &mut Lines, what: &str) -> Result<[f64; N], Error> {
-    let line = lines.next()?.ok_or_else(|| Error::Truncated(format!("before {what}")))?;
+    first(&lines.next()?.ok_or_else(|| Error::Truncated(format!("before {what}")))?, what)
+}
+
+/// The numbers at the beginning of a line.
+fn first<const N: usize>(line: &Line, what: &str) -> Result<[f64; N], Error> {
     let mut words = line.text.split_whitespace();
     let mut all = [0.0; N];
     for number in &mut all {
@@ -71,6 +84,7 @@ mod tests {
         assert_eq!(cloud.xy, [[8.0, 21.0], [5.0, 24.0]]);
         assert_eq!(cloud.z, Some(vec![33.0, 36.0]));
         assert_eq!(cloud.remarks, ["2 cells without a measurement are left out"]);
+        assert_eq!(cloud.losses, ["values of points are left out: intensity, color"]);
         for (text, error) in [
             (SCAN.replace("0 0 0 0.5\n", ""), "the file ends before a measurement"),
             (SCAN.replace("2\n1\n", "2\nx\n"), "line 2: the number of rows"),

@@ -1,13 +1,18 @@
 //! Files beside a raster, where other programs look for its place and its system of coordinates.
 //!
-//! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids and the world file `.pgw` beside pictures are ESRI's.
+//! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids and the world file `.pgw` beside pictures are ESRI's. GDAL takes what
+//! its file says for more than what the raster's own says, and does not look there for the system of an ASCII grid.
 
 use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 
+use crate::crs::esri;
 use crate::crs::keys::encode;
-use crate::{Crs, Format};
+use crate::{Crs, Error, Format};
+
+/// The end of the name of GDAL's file beside another one.
+const PAM: &str = ".aux.xml";
 
 /// The file beside a raster that says what its coordinates mean, or of a picture where it is, and its text; `None` where the raster's own file
 /// says all of it, or nothing is known.
@@ -34,37 +39,47 @@ pub fn beside_raster(
     grid: &Grid,
     crs: Option<&Crs>,
 ) -> Option<(PathBuf, String)> {
-    let beside = beside_raster_name(path, format)?;
+    let name = path.file_name().filter(|_| path != Path::new("-"))?;
     if format == Format::Png {
-        return Some((beside, world(grid)));
+        return Some((path.with_extension("pgw"), world(grid)));
     }
-    let crs = crs?;
-    let text = match format {
-        Format::Tiff if encode(Some(crs)).are_complete => return None,
-        Format::Tiff => {
+    match (format, crs?) {
+        (Format::Tiff, crs) if !encode(Some(crs)).are_complete => {
             let definition = crs.wkt.clone().or_else(|| Some(format!("EPSG:{}", crs.epsg?)))?;
-            format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", crate::xml::escaped(&definition))
+            let mut side = name.to_owned();
+            side.push(PAM);
+            let text =
+                format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", crate::xml::escaped(&definition));
+            Some((path.with_file_name(side), text))
         }
-        _ => format!("{}\n", crs.wkt.as_ref()?),
-    };
-    Some((beside, text))
-}
-
-/// The file that [`beside_raster`] may name; `None` for formats that have none.
-pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
-    if path == Path::new("-") {
-        return None;
-    }
-    match format {
-        Format::Tiff => {
-            let mut name = path.file_name()?.to_owned();
-            name.push(".aux.xml");
-            Some(path.with_file_name(name))
-        }
-        Format::Asc => Some(path.with_extension("prj")),
-        Format::Png => Some(path.with_extension("pgw")),
+        (Format::Asc, Crs { wkt: Some(wkt), .. }) => Some((path.with_extension("prj"), format!("{wkt}\n"))),
         _ => None,
     }
+}
+
+/// The system that a file beside a raster says it has: the element `SRS` of GDAL's, or well-known text.
+///
+/// # Errors
+/// If the file is not understood, in which case other programs may take the raster to be elsewhere.
+///
+/// ```
+/// use std::path::Path;
+/// use delone_io::crs_of_side;
+///
+/// let text = "<PAMDataset><SRS>EPSG:25832</SRS></PAMDataset>";
+/// let crs = crs_of_side(Path::new("dem.tif.aux.xml"), text)?.expect("a system");
+/// assert_eq!(crs.epsg, Some(25832));
+/// assert!(crs_of_side(Path::new("dem.tif.aux.xml"), "<PAMDataset/>")?.is_none());
+/// # Ok::<(), delone_io::Error>(())
+/// ```
+pub fn crs_of_side(side: &Path, text: &str) -> Result<Option<Crs>, Error> {
+    let not_known = || Error::content("its system of coordinates is not understood");
+    if side.extension() == Some("prj".as_ref()) {
+        return esri::read(text).map(Some).ok_or_else(not_known);
+    }
+    let document = crate::xml::parse(text)?;
+    let srs = document.descendants().find(|node| node.has_tag_name("SRS")).and_then(|node| node.text());
+    srs.map(|name| Crs::of_name(name).ok_or_else(not_known)).transpose()
 }
 
 /// Where the pixels of a picture are, in six lines: the size of a pixel to the east, two of rotation, the size of a pixel to the next row, and
@@ -92,7 +107,7 @@ pub fn besides_of_raster(path: &Path, format: Format) -> Vec<PathBuf> {
         name.push(end);
         path.with_file_name(name)
     };
-    let mut sides = [".aux.xml", ".ovr", ".msk"].map(with).to_vec();
+    let mut sides = [PAM, ".ovr", ".msk"].map(with).to_vec();
     match format {
         Format::Asc => sides.push(path.with_extension("prj")),
         Format::Png => sides.push(path.with_extension("pgw")),

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::Table;
+use crate::features::is_infinite;
 
 /// Of more columns, those alone are written that have a value: of a file whose every feature has attributes of its own.
 const MOST_NULLS: usize = 256;
@@ -19,9 +20,10 @@ impl<'a> Properties<'a> {
         Self { table, names: names.map(|name| serde_json::Value::from(name).to_string()).collect() }
     }
 
-    /// Writes the members of a row after others: null where there is no value.
+    /// Writes the members of a row after others: null where there is no value, and for the infinities, which parsers of JSON refuse.
     pub(crate) fn write(&self, out: &mut dyn Write, row: Option<usize>) -> io::Result<()> {
-        let mut cells = row.into_iter().flat_map(|row| self.table.row(row));
+        let cells = row.into_iter().flat_map(|row| self.table.row(row));
+        let mut cells = cells.filter(|cell| !is_infinite(cell.1));
         if self.names.len() > MOST_NULLS {
             return cells.try_for_each(|(column, cell)| write!(out, ",{}:{cell}", self.names[column]));
         }

@@ -43,7 +43,7 @@ fn values_have_their_types() {
     let graph = read(database(&[table, &row, &layer("a \"b\"", 7)].concat())).expect("a layer");
     let cells = |row| graph.cloud.features.table.row(row).map(|cell| cell.1.to_owned()).collect::<Vec<_>>();
     assert_eq!(cells(0), ["\"x\\\"\"", "true", "-9223372036854775808", "0.5", "\"00ff\""]);
-    assert_eq!(cells(1), ["\"\"", "false", "2", "\"3\""]);
+    assert_eq!(cells(1), ["\"\"", "false", "2", "1e999", "\"3\""]);
     assert_eq!(graph.cloud.features.table.names(), ["t", "yes", "i", "r", "b", "n"]);
     assert_eq!(graph.cloud.xy, [[1.0, 2.0]]);
     assert_eq!(graph.cloud.crs.and_then(|crs| crs.epsg), Some(25_832));

@@ -2,6 +2,7 @@
 //!
 //! A group of elements is an entity and a physical group, with the same tag. Nodes are numbered as their points, from 1.
 
+mod groups;
 mod read;
 
 use std::io::{self, Write};

@@ -1,6 +1,7 @@
-//! Reads meshes of Gmsh, as text, of versions 2 and 4.1: points, and triangles or tetrahedra. Points are in the order of
-//! their numbers, which may have gaps; other sections are passed over.
+//! Reads meshes of Gmsh, as text, of versions 2 and 4.1: points, and lines, triangles or tetrahedra. Points are in the order of
+//! their numbers, which may have gaps. Other sections are passed over, and named.
 
+use super::groups::Groups;
 use crate::error::excerpt;
 use crate::formats::lines::{Line, Lines};
 use crate::formats::triangle::RESERVED_ROWS;
@@ -8,57 +9,72 @@ use crate::{Cloud, Error, Graph, Source};
 
 /// Reads the points.
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let Some((nodes, ..)) = Reader::start(source)?.nodes()? else {
-        return Err(Error::content("MSH: it has no $Nodes"));
-    };
-    let mut cloud = Cloud::with_capacity(nodes.len(), true);
-    nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
+    let mesh = Mesh::<2>::read(source)?;
+    let mut cloud = mesh.cloud();
+    if mesh.markers.iter().any(|&marker| marker != 0) {
+        cloud.losses.push("physical groups of lines are left out".to_owned());
+    }
     Ok(cloud)
 }
 
-/// Reads the points, and the lines between them as segments, which are borders.
+/// Reads the points, and the lines between them as segments, which are borders; the number of the physical group is the marker.
 pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
-    let (nodes, sides) = read_elements::<2>(source)?;
-    let mut cloud = Cloud::with_capacity(nodes.len(), true);
-    nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
+    let mesh = Mesh::<2>::read(source)?;
+    let cloud = mesh.cloud();
     let ends = |side: [u64; 2]| side.map(|end| end as usize);
-    let segments: Vec<[usize; 2]> = sides.unwrap_or_default().into_iter().map(ends).collect();
-    Ok(Graph { is_border: vec![true; segments.len()], segments, ..Graph::of_points(cloud) })
+    let segments: Vec<[usize; 2]> = mesh.simplices.unwrap_or_default().into_iter().map(ends).collect();
+    let markers = mesh.markers.iter().any(|&marker| marker != 0).then_some(mesh.markers);
+    Ok(Graph { is_border: vec![true; segments.len()], segments, markers, ..Graph::of_points(cloud) })
 }
 
 /// Whether there is a line in it.
 pub(crate) fn has_lines(source: Box<dyn Source>) -> bool {
-    read_elements::<2>(source).is_ok_and(|(_, sides)| sides.is_some_and(|sides| !sides.is_empty()))
+    Mesh::<2>::read(source).is_ok_and(|mesh| mesh.simplices.is_some_and(|sides| !sides.is_empty()))
 }
 
 /// Reads the triangles (N = 3) or tetrahedra (N = 4), of any order by their corners, as indices of the points. Elements of
 /// fewer corners are passed over, and so are tetrahedra where triangles are wanted.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
-    read_elements(source)?.1.ok_or_else(|| Error::content("MSH: it has no $Elements"))
+    Mesh::read(source)?.simplices.ok_or_else(|| Error::content("MSH: it has no $Elements"))
 }
 
-/// The elements of N corners, where there are elements.
-type Simplices<const N: usize> = Option<Vec<[u64; N]>>;
+/// Nodes, and elements of N corners.
+struct Mesh<const N: usize> {
+    nodes: Nodes,
+    /// Where there are elements.
+    simplices: Option<Vec<[u64; N]>>,
+    /// The physical group of each; 0 if it is in none.
+    markers: Vec<i64>,
+    groups: Groups,
+}
 
-/// Reads nodes, and elements after them.
-fn read_elements<const N: usize>(source: Box<dyn Source>) -> Result<(Nodes, Simplices<N>), Error> {
-    let Some((nodes, mut reader)) = Reader::start(source)?.nodes()? else {
-        return Err(Error::content("MSH: it has no $Nodes"));
-    };
-    let tags: Vec<u64> = nodes.iter().map(|node| node.0).collect();
-    while let Some(section) = reader.section()? {
-        if section == "Elements" {
-            let mut rows = Rows { tags: &tags, simplices: Vec::new() };
-            match reader.version {
-                Version::Two => reader.listed(&mut rows)?,
-                Version::Four => reader.in_blocks(&mut rows)?,
+impl<const N: usize> Mesh<N> {
+    fn read(source: Box<dyn Source>) -> Result<Self, Error> {
+        let (nodes, mut groups, mut reader) = Reader::start(source)?.nodes()?;
+        let tags: Vec<u64> = nodes.iter().map(|node| node.0).collect();
+        let mut rows = Rows { tags: &tags, simplices: Vec::new(), markers: Vec::new() };
+        let mut has_elements = false;
+        while let Some(section) = reader.section()? {
+            if section == "Elements" && !std::mem::replace(&mut has_elements, true) {
+                match reader.version {
+                    Version::Two => reader.listed(&mut rows)?,
+                    Version::Four => reader.in_blocks(&mut rows, &groups)?,
+                }
+                reader.end("Elements")?;
+            } else {
+                groups.read(section, &mut reader)?;
             }
-            reader.end("Elements")?;
-            return Ok((nodes, Some(rows.simplices)));
         }
-        reader.pass(&section)?;
+        let Rows { simplices, markers, .. } = rows;
+        Ok(Self { simplices: has_elements.then_some(simplices), markers, nodes, groups })
     }
-    Ok((nodes, None))
+
+    fn cloud(&self) -> Cloud {
+        let mut cloud = Cloud::with_capacity(self.nodes.len(), true);
+        self.nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
+        cloud.losses = self.groups.losses();
+        cloud
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -70,7 +86,7 @@ enum Version {
 /// Numbers and coordinates of nodes, by increasing number.
 type Nodes = Vec<(u64, [f64; 3])>;
 
-struct Reader {
+pub(super) struct Reader {
     lines: Lines,
     version: Version,
 }
@@ -104,7 +120,7 @@ impl Reader {
         Ok(reader)
     }
 
-    fn line(&mut self, place: &str) -> Result<Line<'_>, Error> {
+    pub(super) fn line(&mut self, place: &str) -> Result<Line<'_>, Error> {
         self.lines.next()?.ok_or_else(|| Error::Truncated(place.to_owned()))
     }
 
@@ -118,7 +134,7 @@ impl Reader {
     }
 
     /// Passes over the rest of a section.
-    fn pass(&mut self, section: &str) -> Result<(), Error> {
+    pub(super) fn pass(&mut self, section: &str) -> Result<(), Error> {
         loop {
             let line = self.line(&format!("in ${}", excerpt(section)))?;
             if line.text.strip_prefix("$End") == Some(section) {
@@ -127,7 +143,7 @@ impl Reader {
         }
     }
 
-    fn end(&mut self, section: &str) -> Result<(), Error> {
+    pub(super) fn end(&mut self, section: &str) -> Result<(), Error> {
         let line = self.line(&format!("in ${section}"))?;
         if line.text.strip_prefix("$End") == Some(section) {
             return Ok(());
@@ -135,8 +151,9 @@ impl Reader {
         Err(line.error(format!("{:?} where ${section} ends by its counts", excerpt(line.text))))
     }
 
-    /// Reads the nodes, and returns what follows them.
-    fn nodes(mut self) -> Result<Option<(Nodes, Self)>, Error> {
+    /// Reads the nodes and the groups before them, and returns what follows.
+    fn nodes(mut self) -> Result<(Nodes, Groups, Self), Error> {
+        let mut groups = Groups::default();
         while let Some(section) = self.section()? {
             match &section[..] {
                 "Nodes" => {
@@ -149,13 +166,13 @@ impl Reader {
                     if let Some(pair) = nodes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
                         return Err(Error::content(format!("MSH: node {} is there twice", pair[0].0)));
                     }
-                    return Ok(Some((nodes, self)));
+                    return Ok((nodes, groups, self));
                 }
                 "Elements" => return Err(Error::content("MSH: $Elements is before $Nodes")),
-                _ => self.pass(&section)?,
+                _ => groups.read(section, &mut self)?,
             }
         }
-        Ok(None)
+        Err(Error::content("MSH: it has no $Nodes"))
     }
 
     /// Version 2: `count`, then `number x y z` each.
@@ -210,29 +227,33 @@ impl Reader {
             let kind = line.number(words.next(), "the kind of the element")?;
             let tags: usize = line.number(words.next(), "the number of tags")?;
             if is_wanted::<N>(&line, kind)? {
-                rows.push(&line, words.skip(tags))?;
+                let group =
+                    if tags > 0 { line.number(words.clone().next(), "the physical group")? } else { 0 };
+                rows.push(&line, words.skip(tags), group)?;
             }
         }
         Ok(())
     }
 
     /// Version 4.1: `blocks count least most`, then for each block `dimension entity kind count` and `number node ...` each.
-    fn in_blocks<const N: usize>(&mut self, rows: &mut Rows<N>) -> Result<(), Error> {
+    fn in_blocks<const N: usize>(&mut self, rows: &mut Rows<N>, groups: &Groups) -> Result<(), Error> {
         let (blocks, count) = self.heading("elements")?;
         let mut done = 0;
         for _ in 0..blocks {
             let line = self.line("in $Elements")?;
-            let mut words = line.text.split_whitespace().skip(2);
+            let mut words = line.text.split_whitespace().skip(1);
+            let entity = line.number(words.next(), "the entity of the elements")?;
             let kind = line.number(words.next(), "the kind of the elements")?;
             let more: usize = line.number(words.next(), "the elements of the block")?;
             if more > count - done {
                 return Err(line.error(format!("{more} elements after {done} of {count}")));
             }
             let wanted = is_wanted::<N>(&line, kind)?;
+            let group = if N == 2 { groups.of_curve(entity) } else { 0 };
             for i in done..done + more {
                 let line = self.line_of("elements", i, count)?;
                 if wanted {
-                    rows.push(&line, line.text.split_whitespace().skip(1))?;
+                    rows.push(&line, line.text.split_whitespace().skip(1), group)?;
                 }
             }
             done += more;
@@ -251,7 +272,7 @@ impl Reader {
         Ok((blocks, line.number(words.next(), &format!("the number of {what}"))?))
     }
 
-    fn line_of(&mut self, what: &str, i: usize, count: usize) -> Result<Line<'_>, Error> {
+    pub(super) fn line_of(&mut self, what: &str, i: usize, count: usize) -> Result<Line<'_>, Error> {
         self.lines.next()?.ok_or_else(|| Error::Truncated(format!("after {i} of {count} {what}")))
     }
 }
@@ -284,11 +305,17 @@ struct Rows<'a, const N: usize> {
     /// The numbers of the nodes, increasing.
     tags: &'a [u64],
     simplices: Vec<[u64; N]>,
+    markers: Vec<i64>,
 }
 
 impl<const N: usize> Rows<'_, N> {
-    /// Takes the corners of an element; other nodes follow them.
-    fn push<'a>(&mut self, line: &Line, mut words: impl Iterator<Item = &'a str>) -> Result<(), Error> {
+    /// Takes the corners of an element of a group; other nodes follow them.
+    fn push<'a>(
+        &mut self,
+        line: &Line,
+        mut words: impl Iterator<Item = &'a str>,
+        group: i64,
+    ) -> Result<(), Error> {
         let mut corners = [0; N];
         for slot in &mut corners {
             let tag: u64 = line.number(words.next(), "a corner")?;
@@ -297,6 +324,7 @@ impl<const N: usize> Rows<'_, N> {
             *slot = index as u64;
         }
         self.simplices.push(corners);
+        self.markers.push(group);
         Ok(())
     }
 }

@@ -4,14 +4,13 @@
 //! Source: "ESRI Shapefile Technical Description", 1998. Read by hand, a record at a time, so that memory stays in
 //! proportion to the file.
 
-mod rings;
-mod system;
 mod table;
 
 use std::io::Read;
 
 use self::table::{Rows, State};
 use super::poly::Beside;
+use super::rings::{Ring, polygons};
 use super::shapes::Shapes;
 use crate::{Error, ReadOptions, Source};
 
@@ -48,7 +47,7 @@ pub(crate) fn read(
         open(extension)?.take(LONGEST).read_to_end(&mut bytes).ok()?;
         Some(String::from_utf8_lossy(&bytes).into_owned())
     };
-    shapes.crs = text("prj").as_deref().and_then(system::read);
+    shapes.crs = text("prj").as_deref().and_then(crate::crs::esri::read);
     let page = text("cpg");
     let mut rows = open("dbf").map(|table| Rows::open(table, page.as_deref())).transpose()?;
     if rows.is_none() {
@@ -190,7 +189,10 @@ impl<'a> Record<'a> {
             }
             return Ok(());
         }
-        for polygon in rings::polygons(xy, &ranges) {
+        let rings: Vec<Ring> =
+            ranges.iter().map(|range| Ring::of(xy[range.clone()].iter().map(place).collect())).collect();
+        // Outer rings are clockwise. Some programs write every ring in one direction.
+        for polygon in polygons(&rings, |ring| rings[ring].is_counter_clockwise()) {
             shapes.polygon();
             for ring in polygon {
                 let (start, range) = (shapes.len(), ranges[ring].clone());

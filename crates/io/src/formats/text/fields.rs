@@ -136,8 +136,8 @@ fn end_of_quotes(text: &str) -> Option<usize> {
     }
 }
 
+/// The text between quotes, whose blanks are its own.
 fn unquoted(inner: &str) -> Cow<'_, str> {
-    let inner = inner.trim();
     if inner.contains('"') { Cow::Owned(inner.replace("\"\"", "\"")) } else { Cow::Borrowed(inner) }
 }
 

@@ -425,6 +425,7 @@ pub(crate) fn read_pts(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
     let mut cloud = Cloud::with_capacity(0, true);
     let mut announced = 0;
+    let mut most = 0;
     while let Some(line) = lines.next()? {
         let mut words = line.text.split_whitespace();
         let first = words.next();
@@ -433,9 +434,15 @@ pub(crate) fn read_pts(source: Box<dyn Source>) -> Result<Cloud, Error> {
             second => {
                 let xy = [line.number(first, "x")?, line.number(second, "y")?];
                 cloud.push(xy, line.number(words.next(), "z")?);
+                most = words.count().max(most);
             }
         }
     }
+    // An intensity, or red, green and blue, or all four.
+    cloud.lose_values(["intensity", "color"].into_iter().filter(|&name| match name {
+        "color" => most >= 3,
+        _ => most == 1 || most >= 4,
+    }));
     if cloud.xy.len() < announced {
         return Err(Error::Truncated(format!("after {} of {announced} points", cloud.xy.len())));
     }

@@ -254,7 +254,8 @@ fn legacy_type(name: &str) -> Result<Number, Error> {
         "unsigned_char" => Number::Unsigned(1),
         "short" => Number::Signed(2),
         "unsigned_short" => Number::Unsigned(2),
-        "int" => Number::Signed(4),
+        // VTK writes its own kind of index, which has 64 bits in memory, as 32.
+        "int" | "vtkIdType" => Number::Signed(4),
         "unsigned_int" => Number::Unsigned(4),
         "long" | "vtktypeint64" => Number::Signed(8),
         "unsigned_long" => Number::Unsigned(8),

@@ -88,6 +88,14 @@ fn binary_cells() {
     file.extend(b"\nLINES 1 4\n");
     file.extend([3, 2, 1, 0].iter().flat_map(|x: &i32| x.to_be_bytes()));
     assert_eq!(read_legacy_graph(source(&file)).expect("valid").segments, [[2, 1], [1, 0]]);
+    // Indices of VTK's own kind have 32 bits, offsets 64.
+    let mut offsets = b"# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n".to_vec();
+    offsets.extend((0..9).flat_map(|x| (x as f32).to_be_bytes()));
+    offsets.extend(b"\nLINES 2 3\nOFFSETS vtktypeint64\n");
+    offsets.extend([0, 3].iter().flat_map(|x: &i64| x.to_be_bytes()));
+    offsets.extend(b"\nCONNECTIVITY vtkIdType\n");
+    offsets.extend([2, 1, 0].iter().flat_map(|x: &i32| x.to_be_bytes()));
+    assert_eq!(read_legacy_graph(source(&offsets)).expect("valid").segments, [[2, 1], [1, 0]]);
     for cut in 60..file.len() {
         // No panic; lines are all there or the file is refused.
         let lines = read_legacy_graph(source(&file[..cut])).map(|graph| graph.segments.len());

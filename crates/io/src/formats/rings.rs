@@ -1,27 +1,19 @@
-//! Which rings of a record are polygons, and which are holes in which: outer rings are clockwise, holes are not.
+//! Holes find the polygons that they are in, in formats whose rings are one after another.
 //!
 //! Decisions are exact. Cost: a hole is looked for in the outer rings whose box it is in.
 
-use std::ops::Range;
-
 use delone_predicates::{Sign, orient2d};
 
-use super::place;
-
 /// A ring without the position at its end, with its box.
-struct Ring {
+pub(super) struct Ring {
     points: Vec<[f64; 2]>,
     low: [f64; 2],
     high: [f64; 2],
 }
 
-/// The rings of each polygon, the outer one first.
-pub(super) fn polygons(xy: &[[u8; 16]], ranges: &[Range<usize>]) -> Vec<Vec<usize>> {
-    if ranges.len() < 2 {
-        return (0..ranges.len()).map(|ring| vec![ring]).collect();
-    }
-    let rings: Vec<Ring> = ranges.iter().map(|range| Ring::of(&xy[range.clone()])).collect();
-    let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|&i| !rings[i].is_hole());
+/// The rings of each polygon, the outer one first: a hole is of the innermost ring around it. Those around which there is none are polygons.
+pub(super) fn polygons(rings: &[Ring], is_hole: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|&i| !is_hole(i));
     let mut polygons: Vec<Vec<usize>> = outer.into_iter().map(|ring| vec![ring]).collect();
     let count = polygons.len();
     for hole in holes {
@@ -33,7 +25,6 @@ pub(super) fn polygons(xy: &[[u8; 16]], ranges: &[Range<usize>]) -> Vec<Vec<usiz
         });
         match innermost {
             Some(polygon) => polygons[polygon].push(hole),
-            // Some programs write every ring in one direction.
             None => polygons.push(vec![hole]),
         }
     }
@@ -41,8 +32,7 @@ pub(super) fn polygons(xy: &[[u8; 16]], ranges: &[Range<usize>]) -> Vec<Vec<usiz
 }
 
 impl Ring {
-    fn of(xy: &[[u8; 16]]) -> Self {
-        let mut points: Vec<[f64; 2]> = xy.iter().map(place).collect();
+    pub(super) fn of(mut points: Vec<[f64; 2]>) -> Self {
         if points.first() == points.last() {
             points.pop();
         }
@@ -55,7 +45,7 @@ impl Ring {
     }
 
     /// Whether it is counter-clockwise, by its least corner.
-    fn is_hole(&self) -> bool {
+    pub(super) fn is_counter_clockwise(&self) -> bool {
         let n = self.points.len();
         if !self.points.as_flattened().iter().all(|x| x.is_finite()) {
             return false;
@@ -96,21 +86,12 @@ impl Ring {
 
 #[cfg(test)]
 mod tests {
-    use super::polygons;
+    use super::{Ring, polygons};
 
-    /// Rings of corners, closed.
+    /// Rings of corners, of which those that are counter-clockwise are holes.
     fn grouped(rings: &[&[[f64; 2]]]) -> Vec<Vec<usize>> {
-        let mut xy: Vec<[u8; 16]> = Vec::new();
-        let mut ranges = Vec::new();
-        for ring in rings {
-            let start = xy.len();
-            for [x, y] in ring.iter().chain(ring.first()) {
-                let bytes = [x.to_le_bytes(), y.to_le_bytes()].concat();
-                xy.push(bytes.try_into().expect("two numbers"));
-            }
-            ranges.push(start..xy.len());
-        }
-        polygons(&xy, &ranges)
+        let rings: Vec<Ring> = rings.iter().map(|ring| Ring::of(ring.to_vec())).collect();
+        polygons(&rings, |i| rings[i].is_counter_clockwise())
     }
 
     fn square(x: f64, side: f64) -> [[f64; 2]; 4] {

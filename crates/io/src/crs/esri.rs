@@ -20,7 +20,7 @@ const ZONES: [(&str, &str, u32, u32, u32); 4] = [
 ];
 
 /// The system of a `.prj` file.
-pub(super) fn read(text: &str) -> Option<Crs> {
+pub(crate) fn read(text: &str) -> Option<Crs> {
     let crs = Crs::of_wkt(text)?;
     let epsg = crs.epsg.or_else(|| number(crs.name.as_deref()?));
     Some(Crs { epsg, ..crs })
