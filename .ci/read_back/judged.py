@@ -228,7 +228,9 @@ def lines_of(kind):
         cells = {pyvista.CellType.LINE: segments, pyvista.CellType.TRIANGLE: np.array([[0, 1, 4], [1, 2, 5]])}
         pyvista.UnstructuredGrid(cells, places).save(file)
     elif kind == "msh":
-        meshio.write(file, meshio.Mesh(places, [("line", segments)]), file_format="gmsh", binary=False)
+        groups = {f"gmsh:{what}": [np.arange(len(segments)) // 4 + 1] for what in ("physical", "geometrical")}
+        mesh = meshio.Mesh(places, [("line", segments)], cell_data=groups)
+        meshio.write(file, mesh, file_format="gmsh22", binary=False)
     elif kind == "dxf":
         drawing = ezdxf.new("R2010")
         for chain in (ring, path):
@@ -256,6 +258,9 @@ def lines_of(kind):
     rows = [tuple(int(end) - first for end in row[1:3]) for row in text[count + 2 :] if len(row) >= 3]
     digits = 6 if kind == "gpx" else 9
     assert by_place(rows, np.round(corners, digits)) == by_place(segments, np.round(transformed, digits)), "other segments"
+    if kind == "msh":
+        # Physical groups are markers, in whatever order segments are.
+        assert sorted(row[3] for row in text[count + 2 :] if len(row) >= 4) == ["1"] * 4 + ["2"] * 2, "other markers"
 
 
 def segments_of(kind):

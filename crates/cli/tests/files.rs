@@ -68,7 +68,7 @@ fn columns_are_told() {
             "\u{1e}{\"type\":\"Point\",\"coordinates\":[1,2]}\n\u{1e}{\"type\":\"Point\",\"coordinates\":[3,4]}\n",
             "",
         ),
-        ("a.pts", "2\n1 2 3 -5 0 0 0\n4 5 6 -5 0 0 0\n", ""),
+        ("a.pts", "2\n1 2 3 -5 0 0 0\n4 5 6 -5 0 0 0\n", "values of points are left out: intensity, color"),
         ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ""),
         (
             "a.stl",

@@ -238,7 +238,7 @@ fn files_beside_a_raster_are_read() {
     for (name, what) in [("dem.asc", "dem.prj: its system"), ("dem.tif", "dem.tif.aux.xml: XML")] {
         let told = text(&place.run(&format!("contours {name} --interval 1 -o c.geojson")).stderr);
         assert!(told.contains(what), "{told}");
-        place.fail(&format!("--strict contours {name} --interval 1 -o c.geojson"), 1, what);
+        place.fail(&format!("-q --strict contours {name} --interval 1 -o c.geojson"), 1, what);
     }
 }
 

@@ -243,5 +243,7 @@ MULTIPOLYGON (((20 0, 21 0, 20 1, 20 0)), ((3 3, 6 3, 6 6, 3 6, 3 3)))\nPOINT (1
     place.fail("polygons p.wkt -o t.ele", 2, "triangles of polygons are not written to ele");
     place.fail("polygons p.wkt -o p.wkt", 2, "would overwrite");
     place.file("none.wkt", "POINT (1 1)\n");
-    assert!(place.succeed("-q polygons none.wkt -o - --to csv").is_empty());
+    place.fail("polygons none.wkt -o t.csv", 1, "none.wkt: there is no polygon in it");
+    place.file("empty.wkt", "POLYGON EMPTY\n");
+    assert!(place.succeed("-q polygons empty.wkt -o - --to csv").is_empty());
 }
