@@ -17,6 +17,7 @@
 //! | [`Locate::Stars`] | the same | O(log n) stars, random order | to study it; insertion only |
 //! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 
+pub(crate) mod conflict;
 pub(crate) mod conflict_lists;
 pub(crate) mod delaunay_tree;
 pub(crate) mod from_last;
@@ -27,6 +28,7 @@ pub(crate) mod levels;
 mod links;
 pub(crate) mod nearest;
 pub(crate) mod tree;
+pub(crate) mod walk;
 
 pub use from_last::Walk;
 pub use hierarchy::{Hierarchy, Nearest};

@@ -9,6 +9,8 @@ use crate::around::{Around, Side, Surround};
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId};
 use crate::locate::Start;
+use crate::locate::conflict::{self, Beyond};
+use crate::locate::walk::walk;
 use crate::points::finite;
 use crate::triangulation::Found;
 
@@ -83,34 +85,37 @@ impl Delaunay2 {
         if mesh.is_tagged || mesh.is_ghost(near) || !self.base.spanned {
             return Err(Some(near.edge(0)));
         }
-        let mut edge = near.edge(0);
-        let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, fixed);
+        let first = near.edge(0);
+        // What is known of the edge that a triangle was entered by: the point is not behind it, but for the first.
+        let [mut a, mut b] = [mesh.tail(first), mesh.head(first)].map(|p| fixed.corner(points[p.index()]));
+        let mut ab = a.cross(&b);
         let mut behind = fixed.side(&a, &b, ab);
-        for _ in 0..HINTED_STEPS {
-            let sides = [behind, fixed.side(&b, &c, bc), fixed.side(&c, &a, ca)];
-            let crossed;
-            if sides[0].is_negative() {
-                crossed = edge;
-                (a, b, ab) = (b, a, -ab);
-            } else if sides[1].is_negative() {
-                crossed = edge.next();
-                (a, ab) = (c, -bc);
-            } else if sides[2].is_negative() {
-                crossed = edge.previous();
-                (b, ab) = (c, -ca);
-            } else {
-                return if sides.contains(&Sign::Zero) { Err(Some(edge)) } else { Ok(edge) };
-            }
-            edge = mesh.twin(crossed);
+        let mut is_inside = false;
+        let end = walk(first, HINTED_STEPS, |edge| {
             let tip = mesh.tip(edge);
             if tip.is_ghost() {
-                return Err(Some(edge));
+                return None;
             }
-            c = fixed.corner(points[tip.index()]);
-            (bc, ca) = (b.cross(&c), c.cross(&a));
+            let c = fixed.corner(points[tip.index()]);
+            let (bc, ca) = (b.cross(&c), c.cross(&a));
+            let sides = [behind, fixed.side(&b, &c, bc), fixed.side(&c, &a, ca)];
             behind = Sign::Positive;
-        }
-        Err(Some(edge))
+            let crossed = if sides[0].is_negative() {
+                (a, b, ab) = (b, a, -ab);
+                edge
+            } else if sides[1].is_negative() {
+                (a, ab) = (c, -bc);
+                edge.next()
+            } else if sides[2].is_negative() {
+                (b, ab) = (c, -ca);
+                edge.previous()
+            } else {
+                is_inside = !sides.contains(&Sign::Zero);
+                return None;
+            };
+            Some(mesh.twin(crossed))
+        });
+        if is_inside { Ok(end.at) } else { Err(Some(end.at)) }
     }
 
     /// Depth first in counter-clockwise order, so that the border comes in its cyclic order. No vertex is inside of the cavity: no
@@ -127,36 +132,38 @@ impl Delaunay2 {
         put(seed.previous(), [2, 0], ca);
         put(seed.next(), [1, 2], bc);
         put(seed, [0, 1], ab);
-        while let Some(mut side) = ring.pending.pop() {
-            loop {
-                let Side { edge, ends: [from, to], cross } = side;
-                let [a, b] = [from, to].map(|k| &ring.corners_seen[k as usize]);
-                let ends = || [from, to].map(|k| ring.vertices[k as usize]);
-                let tip = mesh.tip(edge);
-                if tip.is_ghost() {
-                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (fixed.center(), ())) {
-                        return around.stop_at_hull();
-                    }
-                    border.push((ends(), mesh.twin(edge).triangle()));
-                    break;
+        let has_ended = conflict::search(&mut ring.pending, |side| {
+            let &Side { edge, ends: [from, to], cross } = side;
+            let [a, b] = [from, to].map(|k| &ring.corners_seen[k as usize]);
+            let ends = || [from, to].map(|k| ring.vertices[k as usize]);
+            let tip = mesh.tip(edge);
+            if tip.is_ghost() {
+                if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (fixed.center(), ())) {
+                    return Beyond::End;
                 }
-                let c = fixed.corner(points[tip.index()]);
-                let (ac, cb) = (a.cross(&c), c.cross(b));
-                // The corners are counter-clockwise as b, a and c.
-                if !fixed.in_circle([b, a, &c], [ac, cb, -cross]).is_positive() {
-                    border.push((ends(), edge.triangle()));
-                    break;
-                }
-                let number = ring.corners_seen.len() as u32;
-                cavity.push(edge.triangle());
-                ring.triangles.push([from, number, to]);
-                ring.vertices.push(mesh.name(tip));
-                ring.corners_seen.push(c);
-                let [right, left] = [edge.next(), edge.previous()].map(|e| mesh.twin(e));
-                ring.pending.push(Side { edge: left, ends: [number, to], cross: cb });
-                side = Side { edge: right, ends: [from, number], cross: ac };
+                border.push((ends(), mesh.twin(edge).triangle()));
+                ring.order.push(from);
+                return Beyond::Outside;
             }
-            ring.order.push(side.ends[0]);
+            let c = fixed.corner(points[tip.index()]);
+            let (ac, cb) = (a.cross(&c), c.cross(b));
+            // The corners are counter-clockwise as b, a and c.
+            if !fixed.in_circle([b, a, &c], [ac, cb, -cross]).is_positive() {
+                border.push((ends(), edge.triangle()));
+                ring.order.push(from);
+                return Beyond::Outside;
+            }
+            let number = ring.corners_seen.len() as u32;
+            cavity.push(edge.triangle());
+            ring.triangles.push([from, number, to]);
+            ring.vertices.push(mesh.name(tip));
+            ring.corners_seen.push(c);
+            let [right, left] = [edge.next(), edge.previous()].map(|e| mesh.twin(e));
+            let left = Side { edge: left, ends: [number, to], cross: cb };
+            Beyond::Inside(Side { edge: right, ends: [from, number], cross: ac }, [left])
+        });
+        if !has_ended {
+            around.stop_at_hull();
         }
     }
 }

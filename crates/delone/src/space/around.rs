@@ -5,10 +5,15 @@ use super::layer::arena::View;
 use crate::around::{Around, Surround};
 use crate::error::Error;
 use crate::ids::TetrahedronId;
+use crate::locate::conflict::{self, Beyond};
+use crate::locate::walk::End;
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::FACETS;
 use crate::points::finite;
 use crate::triangulation::Found;
+
+/// The other facets, by facet.
+const FACETS_BESIDE: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
 /// Steps, after which a walk from a hint is given up and the point is located anew.
 const HINTED_STEPS: usize = 24;
@@ -19,9 +24,10 @@ impl Surround for Delaunay3 {
         let near = near.filter(|&t| self.mesh().is_cell(t) && self.dimension() == Dimension::Space);
         let filter = self.base.filter_with(q);
         let view = View { filter: &filter, ..self.base.view() };
-        let t = match near.and_then(|t| view.walk_within(t, q, HINTED_STEPS)) {
-            found @ Some(_) => found,
-            None => self.walk_to(q, &mut ()),
+        let hinted = near.map(|t| view.walk_within(t, q, HINTED_STEPS, &mut ()));
+        let t = match hinted {
+            Some(End { at, has_arrived: true, .. }) => Some(at),
+            _ => self.walk_to(q, &mut ()),
         };
         Ok(match t {
             Some(t) if !self.mesh().is_ghost(t) => self.found(self.base.classify(t, q, &mut ())),
@@ -54,22 +60,26 @@ impl Delaunay3 {
         around.cavity.push(seed);
         around.pending.extend((0..4).map(|k| (seed, k)));
         let mut border = Vec::new();
-        while let Some((inner, k)) = around.pending.pop() {
+        let has_ended = conflict::search(&mut around.pending, |&(inner, k)| {
             let facet = mesh.twin(inner.facet(k));
             let t = facet.tetrahedron();
             if around.seen.contains(t.index()) {
-                continue;
+                return Beyond::Outside;
             }
             if !view.conflicts(t, (&q, ())) {
                 border.push(facet);
-                continue;
+                return Beyond::Outside;
             }
             if mesh.is_ghost(t) {
-                return around.stop_at_hull();
+                return Beyond::End;
             }
             around.seen.add(t.index());
             around.cavity.push(t);
-            around.pending.extend((0..4).filter(|&k| k != facet.corner()).map(|k| (t, k)));
+            let [a, b, c] = FACETS_BESIDE[facet.corner()];
+            Beyond::Inside((t, c), [(t, a), (t, b)])
+        });
+        if !has_ended {
+            return around.stop_at_hull();
         }
         for facet in border {
             let t = facet.tetrahedron();

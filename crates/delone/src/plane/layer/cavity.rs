@@ -13,6 +13,7 @@
 
 use super::kernel::{Kernel, Site, Sites};
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::conflict::{self, Beyond};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::BorderEdge;
 use crate::prefetch::prefetch;
@@ -44,7 +45,7 @@ impl Cavity {
         seed: TriangleId,
         tally: &mut T,
     ) {
-        self.find(mesh, &sites, sites.at(v), seed, tally);
+        self.dig_observed(mesh, &sites, sites.at(v), seed, tally);
         tally.destroyed(self.triangles.len());
         tally.created(self.border.len());
         self.refill::<K>(mesh, v, seed);
@@ -59,7 +60,7 @@ impl Cavity {
         q: Site<K>,
         seed: TriangleId,
     ) {
-        self.find(mesh, sites, q, seed, &mut ());
+        self.dig_observed(mesh, sites, q, seed, &mut ());
     }
 
     /// The border of what was dug, counter-clockwise: where each edge starts, and its twin outside.
@@ -89,9 +90,8 @@ impl Cavity {
         (&self.hidden, &self.spare)
     }
 
-    /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
-    /// its cyclic order.
-    fn find<K: Kernel, T: Tally>(
+    #[inline]
+    fn dig_observed<K: Kernel, T: Tally>(
         &mut self,
         mesh: &mut Mesh2,
         sites: &Sites<'_, K>,
@@ -99,33 +99,43 @@ impl Cavity {
         seed: TriangleId,
         tally: &mut T,
     ) {
-        self.triangles.clear();
-        self.border.clear();
-        self.enter(mesh, seed);
-        self.pending.extend([2, 1, 0].map(|k| look(mesh, sites.points, seed.edge(k))));
-        while let Some((outside, tip)) = self.pending.pop() {
-            let t = outside.triangle();
-            if mesh.is_marked(t) {
-                continue;
-            }
-            let corners = [mesh.tail(outside), mesh.head(outside), tip];
-            let conflicts = !mesh.is_fixed(outside) && {
-                tally.in_circle();
-                K::conflicts(corners, |k| sites.at(corners[k]), q)
-            };
-            if conflicts {
-                self.enter(mesh, t);
-                self.pending
-                    .extend([outside.previous(), outside.next()].map(|e| look(mesh, sites.points, e)));
-            } else {
-                self.border.push((corners[1], outside));
-            }
-        }
+        self.find(mesh, sites.points, seed, |corners| {
+            tally.in_circle();
+            K::conflicts(corners, |k| sites.at(corners[k]), q)
+        });
     }
 
-    fn enter(&mut self, mesh: &mut Mesh2, t: TriangleId) {
-        mesh.mark(t);
-        self.triangles.push(t);
+    /// Collects and marks the triangles in conflict, from one of them on; their corners decide. [`Self::fill`] or [`Self::abandon`]
+    /// must follow.
+    #[inline]
+    pub(crate) fn find(
+        &mut self,
+        mesh: &mut Mesh2,
+        points: &[[f64; 2]],
+        seed: TriangleId,
+        mut conflicts: impl FnMut([Place; 3]) -> bool,
+    ) {
+        let Self { triangles, border, pending, .. } = self;
+        triangles.clear();
+        border.clear();
+        mesh.mark(seed);
+        triangles.push(seed);
+        pending.extend([2, 1, 0].map(|k| look(mesh, points, seed.edge(k))));
+        conflict::search(pending, |&(outside, tip)| {
+            let t = outside.triangle();
+            if mesh.is_marked(t) {
+                return Beyond::Outside;
+            }
+            let corners = [mesh.tail(outside), mesh.head(outside), tip];
+            if mesh.is_fixed(outside) || !conflicts(corners) {
+                border.push((corners[1], outside));
+                return Beyond::Outside;
+            }
+            mesh.mark(t);
+            triangles.push(t);
+            let [left, right] = [outside.previous(), outside.next()].map(|e| look(mesh, points, e));
+            Beyond::Inside(right, [left])
+        });
     }
 
     /// Joins `v` to every edge of the border. There are two more of them than triangles removed, and two less for each vertex

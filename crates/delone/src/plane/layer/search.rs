@@ -9,6 +9,7 @@ use super::Layer;
 use super::kernel::Kernel;
 use super::walk::walk;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::conflict::{Beyond, search as search_region};
 use crate::locate::{Ground, Nearest, Start};
 use crate::tally::{Phase, Tally};
 
@@ -63,13 +64,13 @@ fn search_conflicts<K: Kernel, T: Tally>(
     let mut best = corner;
     // No vertex is inside of their union: none is met twice.
     let mut pending: Vec<EdgeId> = [0, 1, 2].map(|k| triangle.edge(k)).to_vec();
-    while let Some(e) = pending.pop() {
+    search_region(&mut pending, |&e| {
         let entered = mesh.twin(e);
         let tip = mesh.tip(entered);
         let corners = [mesh.tail(entered), mesh.head(entered), tip];
         tally.in_circle();
         if !K::conflicts(corners, |k| layer.site(corners[k]), (q, K::Weight::default())) {
-            continue;
+            return Beyond::Outside;
         }
         tally.visited();
         if !tip.is_ghost() {
@@ -78,8 +79,8 @@ fn search_conflicts<K: Kernel, T: Tally>(
                 best = tip;
             }
         }
-        pending.extend([entered.next(), entered.previous()]);
-    }
+        Beyond::Inside(entered.previous(), [entered.next()])
+    });
     best
 }
 

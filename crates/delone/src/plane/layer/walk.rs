@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use super::Layer;
 use super::kernel::Kernel;
 use crate::ids::{EdgeId, Place, TriangleId};
-use crate::locate::{Start, Walk};
+use crate::locate::{Start, Walk, walk};
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 use crate::tally::{Phase, Tally};
@@ -109,43 +109,31 @@ fn visibility<K: Kernel, T: Tally>(
 ) -> Goal {
     let mesh = &layer.mesh;
     tally.phase(Phase::Walk);
-    let mut from = finite_side(mesh, start);
-    let mut steps = 1;
-    visit(layer, from.triangle(), tally);
+    let first = finite_side(mesh, start);
+    visit(layer, first.triangle(), tally);
     tally.orientation();
-    if layer.is_beyond(from, q) {
-        from = mesh.twin(from);
-        steps += 1;
+    let is_crossed = layer.is_beyond(first, q);
+    let mut from = first;
+    if is_crossed {
+        from = mesh.twin(first);
         visit(layer, from.triangle(), tally);
-        if mesh.tip(from).is_ghost() {
-            return Goal { triangle: from.triangle(), steps };
-        }
     }
-    loop {
-        // `q` is not beyond `from`: it came from there.
-        let (mut first, mut second) = (from.next(), from.previous());
-        if turned(from.triangle()) {
-            (first, second) = (second, first);
+    // `q` is not beyond the edge that a triangle was entered by: the walk came from there.
+    let end = walk::walk(from, most - usize::from(is_crossed), |entered| {
+        if mesh.tip(entered).is_ghost() {
+            return None;
         }
-        layer.prefetch_triangle(mesh.twin(first));
-        layer.prefetch_triangle(mesh.twin(second));
-        tally.orientation();
-        let crossed = if layer.is_beyond(first, q) {
-            first
-        } else {
+        layer.prefetch_triangle(mesh.twin(entered.next()));
+        layer.prefetch_triangle(mesh.twin(entered.previous()));
+        let crossed = walk::exit(entered, turned(entered.triangle()), |e| {
             tally.orientation();
-            if !layer.is_beyond(second, q) {
-                return Goal { triangle: from.triangle(), steps };
-            }
-            second
-        };
-        from = mesh.twin(crossed);
-        steps += 1;
-        visit(layer, from.triangle(), tally);
-        if mesh.tip(from).is_ghost() || steps > most {
-            return Goal { triangle: from.triangle(), steps };
-        }
-    }
+            layer.is_beyond(e, q)
+        });
+        let next = mesh.twin(crossed?);
+        visit(layer, next.triangle(), tally);
+        Some(next)
+    });
+    Goal { triangle: end.at.triangle(), steps: end.steps + usize::from(is_crossed) }
 }
 
 /// From a vertex along the segment to `q`. A vertex on the line counts as being on its right.

@@ -12,6 +12,7 @@ use super::queue::{Fault, Task};
 use super::report::Reason;
 use super::shape::{Shape, squared_obtuseness};
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::walk;
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
 
@@ -50,25 +51,22 @@ impl Mesher<'_> {
         if !q.iter().all(|x| x.is_finite()) || side(start).is_negative() {
             return Met::Nothing;
         }
-        let mut from = start;
-        'walk: loop {
-            for e in [from.next(), from.previous()] {
-                if side(e).is_negative() {
-                    if mesh.is_fixed(e) {
-                        return Met::Constraint(e);
-                    }
-                    from = mesh.twin(e);
-                    continue 'walk;
-                }
-            }
-            let t = from.triangle();
-            if mesh.places(t).iter().any(|v| self.point(*v) == q) {
-                return Met::Nothing;
-            }
-            let on =
-                [0, 1, 2].map(|k| t.edge(k)).into_iter().find(|&e| mesh.is_fixed(e) && side(e) == Sign::Zero);
-            return on.map_or(Met::Triangle(t), Met::Constraint);
+        let mut constraint = None;
+        let end = walk::walk(start, usize::MAX, |from| {
+            let crossed = walk::exit(from, false, |e| side(e).is_negative())?;
+            constraint = Some(crossed).filter(|&e| mesh.is_fixed(e));
+            constraint.is_none().then(|| mesh.twin(crossed))
+        });
+        if let Some(e) = constraint {
+            return Met::Constraint(e);
         }
+        let t = end.at.triangle();
+        if mesh.places(t).iter().any(|v| self.point(*v) == q) {
+            return Met::Nothing;
+        }
+        let on =
+            [0, 1, 2].map(|k| t.edge(k)).into_iter().find(|&e| mesh.is_fixed(e) && side(e) == Sign::Zero);
+        on.map_or(Met::Triangle(t), Met::Constraint)
     }
 
     /// Notes constraints to be split, and the triangle to be looked at again then. What is too large beside constraints that are

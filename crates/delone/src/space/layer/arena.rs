@@ -5,6 +5,7 @@ use delone_predicates::Filter3;
 
 use super::kernel::{Lift, SiteRef};
 use crate::ids::{Place, TetrahedronId};
+use crate::locate::walk::{self, End};
 use crate::mesh::tetrahedra::Tetrahedron;
 use crate::prefetch::prefetch;
 use crate::tally::{Phase, Tally};
@@ -132,51 +133,35 @@ impl<W: Lift> View<'_, W> {
         q: [f64; 3],
         tally: &mut T,
     ) -> TetrahedronId {
+        self.walk_within(from, q, usize::MAX, tally).at
+    }
+
+    /// A walk that is given up after more steps than `most`.
+    #[inline]
+    pub(in crate::space) fn walk_within<T: Tally>(
+        &self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        most: usize,
+        tally: &mut T,
+    ) -> End<TetrahedronId> {
         tally.phase(Phase::Walk);
-        let mut t = from;
-        if self.corners(t)[3].is_ghost() {
-            t = self.cells[t.index()].across[3].tetrahedron();
-        }
-        loop {
+        let first = &self.cells[from.index()];
+        let from = if first.corners[3].is_ghost() { first.across[3].tetrahedron() } else { from };
+        walk::walk(from, most, |t| {
             tally.visited();
             let cell = &self.cells[t.index()];
             if cell.corners[3].is_ghost() {
-                return t;
+                return None;
             }
             (0..4).for_each(|_| tally.orientation());
             if W::HIDES {
                 // Walks are long where many sites tie, and without weights they are not.
                 cell.across.iter().for_each(|f| prefetch(self.cells, f.tetrahedron().index()));
             }
-            match self.filter.facet_towards(self.all(&cell.corners), &q) {
-                Some(k) => t = cell.across[k].tetrahedron(),
-                None => return t,
-            }
-        }
-    }
-
-    /// Walks from a tetrahedron that may be far; nothing if it takes more steps than `most`.
-    pub(in crate::space) fn walk_within(
-        &self,
-        from: TetrahedronId,
-        q: [f64; 3],
-        most: usize,
-    ) -> Option<TetrahedronId> {
-        let mut t = from;
-        if self.corners(t)[3].is_ghost() {
-            t = self.cells[t.index()].across[3].tetrahedron();
-        }
-        for _ in 0..most {
-            let cell = &self.cells[t.index()];
-            if cell.corners[3].is_ghost() {
-                return Some(t);
-            }
-            match self.filter.facet_towards(self.all(&cell.corners), &q) {
-                Some(k) => t = cell.across[k].tetrahedron(),
-                None => return Some(t),
-            }
-        }
-        None
+            let k = self.filter.facet_towards(self.all(&cell.corners), &q)?;
+            Some(cell.across[k].tetrahedron())
+        })
     }
 
     /// The corner of a tetrahedron that a point equals.
