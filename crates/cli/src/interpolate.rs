@@ -30,7 +30,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let format = files::format(&args.output, args.to, "--to")?;
     check(args, format, R::is_space())?;
     let mut stats = Stats::start();
-    let place = Place::read(&args.place, quiet)?;
+    let place = Place::read(&args.place, None, quiet)?;
     let (input, dimensions) = match &args.queries {
         Some(path) => files::attributes_apart(&args.input, path),
         None => (args.input.clone(), Vec::new()),
@@ -48,10 +48,11 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             (queries, None)
         }
         (None, size) => {
-            let grid = match place.given() {
+            let grid = match place.cells.like {
                 Some(grid) => grid,
                 None => place
-                    .grid(&place.area(&room::bounds(&points, &label)?), size.unwrap_or(1.0))
+                    .cells
+                    .squares(&room::bounds(&points, &label)?, size.unwrap_or(1.0))
                     .map_err(|error| Failure::points(&label, &error))?,
             };
             (centers::<R>(&grid, &label)?, Some(grid))

@@ -31,6 +31,7 @@ mod space;
 mod strategies;
 mod surface;
 mod switches;
+mod terrain;
 mod threads;
 mod tiles;
 mod weights;

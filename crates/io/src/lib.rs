@@ -27,6 +27,7 @@ mod mesh;
 mod middles;
 mod output;
 mod patches;
+mod paths;
 pub mod picture;
 mod raster;
 mod solid;
@@ -60,6 +61,7 @@ pub use output::{
     wait_for_names,
 };
 pub use patches::{Patches, write_patches};
+pub use paths::{beside, open, open_as, side};
 pub use raster::{
     ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
     ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, read_raster,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use delone::surface::Duplicates;
 use delone_io::{Compression, Contents, Format};
+use delone_terrain::Method;
 
 use super::formats;
 use super::{DimArgs, EdgeArgs, InputArgs, LightArgs, PlaceArgs, tiles::size};
@@ -29,9 +30,21 @@ pub(crate) enum MethodName {
 }
 
 impl MethodName {
+    /// The method of the library.
+    pub(crate) fn method(self) -> Method {
+        match self {
+            Self::Linear => Method::Linear,
+            Self::Natural => Method::Natural,
+            Self::Laplace => Method::Laplace,
+            Self::Nearest => Method::Nearest,
+            Self::Smooth => Method::Smooth,
+            Self::Farin => Method::Farin,
+        }
+    }
+
     /// Whether it needs gradients.
     pub(crate) fn is_bent(self) -> bool {
-        matches!(self, Self::Smooth | Self::Farin)
+        self.method().needs_gradients()
     }
 }
 

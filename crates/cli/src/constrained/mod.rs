@@ -1,7 +1,6 @@
 //! Points with segments: read, triangulated, told of and written.
 
 pub(crate) mod features;
-mod values;
 
 use std::path::{Path, PathBuf};
 
@@ -11,6 +10,7 @@ use delone::{
     VertexId,
 };
 use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Rows, Trim, picture, write_mesh};
+use delone_terrain::values::extended;
 
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
@@ -18,8 +18,6 @@ use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
-
-pub(crate) use values::{along, clamped, extended, least};
 
 /// Whether a command is about segments: they were asked for, or files hold them.
 pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
@@ -135,7 +133,7 @@ impl Constrained {
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {
-            let (heights, widest) = values::extended(&triangulation, 1, given, |_| None);
+            let (heights, widest) = extended(&triangulation, 1, given, |_| None);
             if widest > 0.0 {
                 let text = format!(
                     "where segments cross their heights differ by {widest} at most; the mean was taken"

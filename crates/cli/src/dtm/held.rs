@@ -10,16 +10,16 @@
 
 use delone::surface::{Grid, Interpolator, Raster};
 use delone::{Around, Delaunay2, Surround, TriangleId};
+use delone_terrain::Method;
 use rayon::prelude::*;
 
-use crate::args::MethodName;
 use crate::message::Failure;
 use crate::tiles::{Corner, Held};
 
 /// The values of some rows.
 pub(super) fn values(
     held: &Held,
-    method: MethodName,
+    method: Method,
     max_edge: Option<f64>,
     grid: &Grid,
 ) -> Result<Vec<f64>, Failure> {
@@ -32,7 +32,7 @@ pub(super) fn values(
         }
     })?;
     let mut values = raster.into_values();
-    if method == MethodName::Linear {
+    if method == Method::Linear {
         return Ok(values);
     }
     // What is linear is asked again until all that it needs is known.
@@ -115,7 +115,7 @@ impl Part {
     /// Settles the cells that can be, on all threads, and gives back the others.
     fn settle(
         &self,
-        method: MethodName,
+        method: Method,
         grid: &Grid,
         open: &[usize],
         values: &mut [f64],
@@ -133,11 +133,11 @@ impl Part {
     }
 
     /// The cells that are settled, and the others.
-    fn ask(&self, method: MethodName, grid: &Grid, open: &[usize]) -> Result<Settled, delone::Error> {
+    fn ask(&self, method: Method, grid: &Grid, open: &[usize]) -> Result<Settled, delone::Error> {
         let mut settled = Vec::new();
         let mut surface = match method {
-            MethodName::Laplace => Interpolator::laplace(&self.d),
-            MethodName::Nearest => Interpolator::nearest(&self.d),
+            Method::Laplace => Interpolator::laplace(&self.d),
+            Method::Nearest => Interpolator::nearest(&self.d),
             _ => Interpolator::sibson(&self.d),
         };
         let mut around = Around::default();
@@ -156,7 +156,7 @@ impl Part {
                         && around.border().iter().all(|&(_, t)| is_real(t))
                 }
             };
-            if method == MethodName::Nearest && around.is_at_hull() {
+            if method == Method::Nearest && around.is_at_hull() {
                 // All points of the part's range are there, so what is nearer is too.
                 let nearest = self.d.nearest(q)?.map(|v| self.d.point(v));
                 let far = nearest.map_or(f64::INFINITY, |p| (p[0] - q[0]).hypot(p[1] - q[1]) * (1.0 + 1e-9));

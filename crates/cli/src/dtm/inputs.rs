@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Duplicates;
 use delone_io::{Cloud, Format, LAS_CLASSES, TemporaryFolder};
+use delone_terrain::{Clip, Error, GROUND, Lines, Remark};
 
+use super::failure::{failure, failure_of_level};
 use crate::args::{DtmArgs, InputArgs, TilesArgs};
 use crate::files;
-use crate::message::Failure;
-
-/// Ground, of LAS classes.
-const GROUND: u8 = 2;
+use crate::message::{Failure, note, warn};
 
 /// The files of a command, and of these ground alone where nothing else is said.
 pub(super) fn resolve(args: &DtmArgs) -> InputArgs {
@@ -30,19 +29,7 @@ fn has_classes(input: &InputArgs) -> bool {
 /// Refuses points that have no surface.
 pub(super) fn check(cloud: &Cloud, label: &Path, args: &DtmArgs) -> Result<(), Failure> {
     check_count(cloud.xy.len() as u64, label, args)?;
-    let Some(heights) = &cloud.z else {
-        let what = format!("{}: the points have no heights", label.display());
-        return Err(Failure::new(what, "give x, y and z, or name the columns with --columns x,y,z"));
-    };
-    if let Some(index) = heights.iter().position(|z| !z.is_finite()) {
-        let what = format!(
-            "{}: point {index} has the height {}, which is not finite",
-            label.display(),
-            heights[index]
-        );
-        return Err(Failure::new(what, "remove that point or repair its height"));
-    }
-    Ok(())
+    delone_terrain::heights_of(cloud).map(drop).map_err(|error| failure(label, &error))
 }
 
 /// Refuses no points.
@@ -65,6 +52,42 @@ pub(super) fn check_count(count: u64, label: &Path, args: &DtmArgs) -> Result<()
 
 fn name(class: u8) -> String {
     LAS_CLASSES.iter().find(|known| known.1 == class).map_or(class.to_string(), |known| known.0.to_owned())
+}
+
+/// Reads breaklines and level polygons.
+pub(super) fn lines(args: &DtmArgs, quiet: bool) -> Result<Lines, Failure> {
+    let mut lines = Lines::new();
+    for path in &args.breaklines {
+        let graph = files::graph_beside(path, quiet)?;
+        lines.breaklines(&graph).map_err(|error| failure(path, &error))?;
+    }
+    for path in &args.flat {
+        let graph = files::graph_beside(path, quiet)?;
+        let remarks = lines.level(&graph).map_err(|error| failure_of_level(path, &error))?;
+        remarks.iter().for_each(|remark| tell(remark, Some(path), quiet));
+    }
+    Ok(lines)
+}
+
+/// Reads polygons to clip to; the points of a file without lines are one ring.
+pub(super) fn clip(path: &Path, quiet: bool) -> Result<Clip, Failure> {
+    let format = files::format_beside(path)?;
+    let graph = files::graph_beside(path, quiet)?;
+    // Points of Triangle's graphs are a ring, whatever segments there are.
+    if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
+        return Err(failure(path, &Error::NoPolygon));
+    }
+    Clip::of(&graph).map_err(|error| failure(path, &error))
+}
+
+/// Tells of a remark, and the file that it is about.
+pub(super) fn tell(remark: &Remark, path: Option<&Path>, quiet: bool) {
+    let label = path.map(|path| format!("{}: ", path.display())).unwrap_or_default();
+    if remark.is_warning() {
+        warn(quiet, format_args!("{label}{remark}"));
+    } else {
+        note(quiet, format_args!("{label}{remark}"));
+    }
 }
 
 /// A folder for tiles beside the first output that is a file; it goes with the work.

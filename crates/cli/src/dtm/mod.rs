@@ -4,39 +4,28 @@
 //! on the points alone: the same file comes out with and without `--memory`.
 
 mod bands;
-mod clip;
+mod failure;
 mod held;
 mod inputs;
-mod level;
-mod lines;
-mod surface;
 
 use std::mem::ManuallyDrop;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use delone::Bounds;
 use delone::surface::Grid;
-use delone::{Bounds, Delaunay2};
 use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, besides_of_raster, write_contours};
+use delone_terrain::{Clip, Error, Options, Product, Terrain, is_map};
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
 use crate::message::{Failure, grouped, say, warn};
 use crate::place::Place;
 use crate::progress::Phase;
-use crate::room;
 use crate::stats::Stats;
 use crate::tiles::Held;
-use bands::About;
-use clip::Clip;
-use lines::Lines;
-use surface::{Kind, Surface};
+use failure::failure;
 
-/// The largest number of cells of a raster, 2^34. More are refused.
-const MAX_CELLS: f64 = 17_179_869_184.0;
-/// Cells for each point that are made without being asked for. Evenly spread points have one, n of them in a strip that is L times as long
-/// as wide sqrt(L / n); a few points far from the others have any number.
-const CELLS_A_POINT: f64 = 1000.0;
 /// Bytes of a cell of the row that is made, at the most.
 const ROW: f64 = 64.0;
 /// Cells that are made at a time, where nobody limits memory.
@@ -57,8 +46,8 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     check(args, &outputs)?;
     keep_besides_apart(&outputs, &inputs, stats_path)?;
-    let clip = args.clip.as_deref().map(|path| Clip::read(path, quiet)).transpose()?;
-    let place = Place::read(&args.place, quiet)?;
+    let clip = args.clip.as_deref().map(|path| inputs::clip(path, quiet)).transpose()?;
+    let place = Place::read(&args.place, args.cell, quiet)?;
     let mut stats = Stats::start();
     let mut job = Job { args, outputs: &outputs, clip, place, label: input.label(), quiet };
     let in_chunks = input.input.iter().all(|path| {
@@ -102,12 +91,6 @@ fn keep_besides_apart(
         outputs.iter().flat_map(|(path, format)| besides_of_raster(path, *format)).collect();
     let named = outputs.iter().map(|output| output.0.as_path()).chain(stats_path);
     files::keep_names_apart(inputs, named.chain(besides.iter().map(PathBuf::as_path)))
-}
-
-/// Whether contours are written to files of a format as features.
-fn is_map(format: Format) -> bool {
-    let holds = |contents| format.holds(contents, Direction::Written);
-    holds(Contents::Contours) && !holds(Contents::Pictures)
 }
 
 fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
@@ -162,7 +145,7 @@ struct Job<'a> {
     args: &'a DtmArgs,
     outputs: &'a [(PathBuf, Format)],
     clip: Option<Clip>,
-    place: Place<'a>,
+    place: Place,
     label: PathBuf,
     quiet: bool,
 }
@@ -172,62 +155,56 @@ impl Job<'_> {
         let Self { args, quiet, .. } = *self;
         inputs::check(cloud, &self.label, args)?;
         let crs = self.crs(cloud);
-        let grid = self.grid(&room::bounds(&cloud.xy, &self.label)?, cloud.xy.len() as f64)?;
-        let mut lines = Lines::read(args, quiet)?;
-        if args.method != MethodName::Linear {
-            lines
-                .cut(grid.step()[0].min(-grid.step()[1]) / 4.0)
-                .map_err(|error| Failure::graph(&self.label, &error))?;
-        }
+        let lines = inputs::lines(args, quiet)?;
+        let options = Options::new()
+            .method(args.method.method())
+            .duplicates(args.duplicates.rule())
+            .border(args.edges.border());
+        let has_lines = !lines.is_empty();
         let phase = Phase::start(quiet, "triangulating");
-        let mut kind = if lines.is_empty() {
-            let (d, heights) = surface::of_points(cloud, args.duplicates.rule(), &self.label)?;
-            Kind::Points(Box::new(Surface::new(d, heights, args, Vec::new(), &self.label)?))
-        } else {
-            surface::with_lines(cloud, &lines, args, &self.label, stats, quiet)?
-        };
-        kind.prepare(args.method).map_err(|error| Failure::points(&self.label, &error))?;
+        let made = Terrain::new(cloud, lines, &self.place.cells, &options);
+        let mut terrain = made.map_err(|error| failure(&self.label, &error))?.with_crs(crs);
         drop(phase);
-        let kind = ManuallyDrop::new(kind);
-        let (vertices, triangles, hull) = match &*kind {
-            Kind::Points(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
-            Kind::Lines(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
-        };
-        stats.set("points", cloud.xy.len());
-        stats.set("duplicates", (cloud.xy.len() + lines.points.len()).saturating_sub(vertices));
-        stats.set("vertices", vertices);
-        stats.set("simplices", triangles);
-        stats.set("hull", hull);
+        if let Some(clip) = self.clip.take() {
+            terrain = terrain.clipped(clip).map_err(|error| failure(&self.label, &error))?;
+        }
+        let terrain = ManuallyDrop::new(terrain);
+        terrain.remarks().iter().for_each(|remark| inputs::tell(remark, None, quiet));
+        let counts = terrain.surface().counts();
+        if has_lines {
+            stats.set("crossings", counts.crossings);
+        }
+        stats.set("points", counts.points);
+        stats.set("duplicates", counts.duplicates);
+        stats.set("vertices", counts.vertices);
+        stats.set("simplices", counts.triangles);
+        stats.set("hull", counts.hull);
         stats.phase("build");
         let maps: Vec<_> = self.outputs.iter().filter(|output| is_map(output.1)).collect();
         let mut contours = Vec::new();
         if !maps.is_empty() {
-            let wrong = |error| Failure::usage(error, "give another --interval");
-            contours = kind.contours(args.interval).map_err(wrong)?;
+            let drawn = terrain.surface().contours(args.interval);
+            contours = drawn.map_err(|error| failure(&self.label, &error))?;
             stats.set("lines", contours.len());
         }
-        let of_map = crs.clone();
-        let map = ContourMap { lines: &contours, bands: &[], crs: of_map.as_ref() };
+        let map = ContourMap { lines: &contours, bands: &[], crs: terrain.crs() };
         for (path, format) in maps {
             files::write(path, |out| write_contours(out, *format, &map, 0))?;
         }
-        let bands = even(&grid, (AT_ONCE / grid.columns()).max(1));
-        let label = self.label.clone();
-        self.rasters(grid, crs, &bands, stats, |window| {
-            kind.values(args.method, window).map_err(|error| Failure::points(&label, &error))
+        self.rasters(terrain.grid(), terrain.crs(), &terrain.bands(), stats, |rows| {
+            terrain.rows(rows).map_err(|error| failure(&self.label, &error))
         })
     }
 
-    fn held(&mut self, held: &Held, about: &Cloud, memory: u64, stats: &mut Stats) -> Result<(), Failure> {
+    fn held(&self, held: &Held, about: &Cloud, memory: u64, stats: &mut Stats) -> Result<(), Failure> {
         let Self { args, .. } = *self;
         let count = stats.get("points").as_u64().unwrap_or(0);
         inputs::check_count(count, &self.label, args)?;
         if stats.get("simplices").as_u64() == Some(0) {
-            // Says what is wrong with them.
-            Surface::new(Delaunay2::new(), Vec::new(), args, Vec::new(), &self.label)?;
+            return Err(failure(&self.label, &Error::OneLine));
         }
         let crs = self.crs(about);
-        let grid = self.grid(&held.bounds, count as f64)?;
+        let grid = self.grid(&held.bounds, count)?;
         let free = (memory - (40 << 20)) as f64;
         // A band has its values twice, and where neighbors are asked its points.
         let rows = (free / 8.0 / 16.0 / grid.columns() as f64) as usize;
@@ -246,39 +223,32 @@ impl Job<'_> {
             let most = free / 2.0 / 700.0;
             bands = bands.into_iter().flat_map(|rows| split(held, &grid, rows, most)).collect();
         }
-        self.rasters(grid, crs, &bands, stats, |window| {
-            held::values(held, args.method, args.edges.max_edge_anywhere, window)
+        self.rasters(&grid, crs.as_ref(), &bands, stats, |rows| {
+            let window = grid.window(0..grid.columns(), rows);
+            let mut values = held::values(held, args.method.method(), args.edges.max_edge_anywhere, &window)?;
+            self.clip.iter().for_each(|clip| clip.apply(&window, &mut values));
+            Ok(values)
         })
     }
 
     fn rasters(
-        &mut self,
-        grid: Grid,
-        crs: Option<Crs>,
+        &self,
+        grid: &Grid,
+        crs: Option<&Crs>,
         bands: &[Range<usize>],
         stats: &mut Stats,
-        values: impl Fn(&Grid) -> Result<Vec<f64>, Failure>,
+        values: impl Fn(Range<usize>) -> Result<Vec<f64>, Failure>,
     ) -> Result<(), Failure> {
-        let about = About {
-            grid,
-            crs,
-            nodata: self.args.nodata,
-            compression: self.args.compress.into(),
-            relief: self.args.light.hillshade(),
-        };
+        let product = Product::new()
+            .nodata(self.args.nodata)
+            .compression(self.args.compress.into())
+            .relief(self.args.light.hillshade());
         let rasters: Vec<_> = self.outputs.iter().filter(|output| !is_map(output.1)).cloned().collect();
         if rasters.is_empty() {
             stats.tell(self.quiet, ["triangle", "triangles"]);
             return Ok(());
         }
-        let clip = &self.clip;
-        let known = bands::write(&rasters, &about, bands, self.quiet, |window| {
-            let mut band = values(window)?;
-            if let Some(clip) = clip {
-                clip.apply(window, &mut band);
-            }
-            Ok(band)
-        })?;
+        let known = bands::write(&rasters, (grid, crs, &product), bands, self.quiet, values)?;
         stats.set("cells", grid.cells());
         stats.set("columns", grid.columns());
         stats.set("rows", grid.rows());
@@ -313,41 +283,15 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// The cells of the raster.
-    fn grid(&self, bounds: &Bounds<2>, count: f64) -> Result<Grid, Failure> {
-        if let Some(grid) = self.place.given() {
-            return Ok(grid);
-        }
-        let area = self.place.area(bounds);
-        let size = [0, 1].map(|k| area.high[k] - area.low[k]);
-        let cell = self.args.cell.unwrap_or_else(|| round((size[0] * size[1] / count.max(1.0)).sqrt()));
-        let refuse = |what: String| {
-            Failure::new(
-                format!("{}: {what}", self.label.display()),
-                "name a --cell, or leave out points that are far away",
-            )
-        };
-        let grid = self.place.grid(&area, cell).map_err(|error| refuse(error.to_string()))?;
-        if grid.cells() > MAX_CELLS {
-            return Err(refuse(format!(
-                "cells of {cell} would be {:e}: {} columns and {} rows; at most {MAX_CELLS:e} are made",
-                grid.cells(),
-                grid.columns(),
-                grid.rows()
-            )));
-        }
-        if self.args.cell.is_none() && grid.cells() > CELLS_A_POINT * count {
-            return Err(refuse(format!(
-                "cells of {cell} would be {:e} for {count} points, of which some are far from the others",
-                grid.cells()
-            )));
-        }
-        if cell > size[0].max(size[1]) {
-            warn(
-                self.quiet,
-                format_args!("a cell of {cell} is larger than the area, {} x {}", size[0], size[1]),
-            );
-        }
+    /// The cells of the raster, of tiles.
+    fn grid(&self, bounds: &Bounds<2>, count: u64) -> Result<Grid, Failure> {
+        let made = self.place.cells.grid(bounds, count);
+        let grid = made.map_err(|error| failure(&self.label, &error))?;
+        self.place
+            .cells
+            .remark(bounds, &grid)
+            .iter()
+            .for_each(|remark| inputs::tell(remark, None, self.quiet));
         Ok(grid)
     }
 
@@ -374,13 +318,4 @@ fn split(held: &Held, grid: &Grid, rows: Range<usize>, most: f64) -> Vec<Range<u
     let middle = usize::midpoint(rows.start, rows.end);
     let halves = [rows.start..middle, middle..rows.end];
     halves.into_iter().flat_map(|half| split(held, grid, half, most)).collect()
-}
-
-/// The least of 1, 2 and 5 times a power of ten that is not smaller.
-fn round(size: f64) -> f64 {
-    if !(size > 0.0 && size.is_finite()) {
-        return 1.0;
-    }
-    let power = 10f64.powf(size.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].into_iter().map(|k| k * power).find(|&x| x >= size).unwrap_or(size)
 }

@@ -7,7 +7,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use delone_io::{Format, Output, Source, decompressed, followed, has_points_beside};
+use delone_io::{Format, Output, Source, decompressed, followed, has_points_beside, side};
 
 use super::{is_special, is_standard};
 use crate::closed;
@@ -56,19 +56,6 @@ pub(crate) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>,
         }
         source(&beside).map_err(named)
     }
-}
-
-/// The name of a file beside another one.
-pub(super) fn side(path: &Path, extension: &str) -> PathBuf {
-    if extension.contains('/') {
-        return path.with_file_name(extension);
-    }
-    let is_capital = |own: &std::ffi::OsStr| own.as_encoded_bytes().iter().all(u8::is_ascii_uppercase);
-    let capital = path.with_extension(extension.to_ascii_uppercase());
-    if path.extension().is_some_and(is_capital) && capital.exists() {
-        return capital;
-    }
-    path.with_extension(extension)
 }
 
 /// A file beside another one.

@@ -67,7 +67,7 @@ fn read_graph(
         let mut open = beside(path);
         let mut beside = |extension: &str| {
             let source = open(extension)?;
-            besides.push(apart::side(path, extension));
+            besides.push(delone_io::side(path, extension));
             Ok(source)
         };
         let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;

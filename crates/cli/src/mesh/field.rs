@@ -4,8 +4,8 @@ use std::path::Path;
 
 use delone::{Constrained2, Delaunay2, Location2, TriangleId, VertexId};
 use delone_io::ReadOptions;
+use delone_terrain::values::{along, clamped, least};
 
-use crate::constrained::{along, clamped, least};
 use crate::files;
 use crate::message::Failure;
 

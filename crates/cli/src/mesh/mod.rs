@@ -17,10 +17,11 @@ use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
     write_voronoi_node,
 };
+use delone_terrain::values::{along, extended};
 
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
+use crate::constrained::Constrained;
 use crate::constrained::features;
-use crate::constrained::{Constrained, along, extended};
 use crate::files;
 use crate::message::{Failure, answer, is_strict, note};
 use crate::progress::Phase;

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Duplicates;
 use delone::{
-    Bounds, Change, Coordinates, Counters, Dimension, Error, Graph, Imprecise, Locate, Regular,
-    Triangulation, Verdict, VertexId,
+    Bounds, Change, Coordinates, Counters, Dimension, Graph, Imprecise, Locate, Regular, Triangulation,
+    Verdict, VertexId,
 };
 use delone_io::{Border, Cloud, Drawable, Format, Mesh, Source, Trim};
 
@@ -126,18 +126,13 @@ pub(crate) fn read<R: Room>(input: &InputArgs, quiet: bool) -> Result<(Vec<R::Po
 /// # Errors
 /// The first point whose place is not finite; and where there is none.
 pub(crate) fn bounds<P: AsRef<[f64]>>(points: &[P], label: &Path) -> Result<Bounds<2>, Failure> {
-    if points.is_empty() {
-        let what = format!("{}: there are no points", label.display());
-        return Err(Failure::new(what, "give other points, or all classes of them"));
-    }
-    let coordinates = |p: &P| [p.as_ref()[0], p.as_ref()[1]];
-    for (index, p) in points.iter().enumerate() {
-        let p = coordinates(p);
-        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
-            return Err(Failure::points(label, &Error::NotFinite { index, axis, value: p[axis] }));
+    delone_terrain::bounds(points).map_err(|error| match error {
+        delone_terrain::Error::Points(error) => Failure::points(label, &error),
+        other => {
+            let what = format!("{}: {other}", label.display());
+            Failure::new(what, "give other points, or all classes of them")
         }
-    }
-    Ok(Bounds::of(points.iter().map(coordinates)))
+    })
 }
 
 /// Reads points that are asked for, or centers.

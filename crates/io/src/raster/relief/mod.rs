@@ -75,6 +75,13 @@ pub struct Relief {
     pub z_factor: f64,
 }
 
+impl Default for Relief {
+    /// A hillshade of heights as they are, lit as is usual on maps.
+    fn default() -> Self {
+        Self::new(ReliefKind::Hillshade(Light::default()))
+    }
+}
+
 impl Relief {
     /// Heights as they are.
     pub fn new(kind: ReliefKind) -> Self {

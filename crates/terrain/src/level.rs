@@ -8,10 +8,10 @@
 use delone::{Constrained2, Fill, SegmentId, TriangleId, VertexId};
 
 /// A triangle and its height.
-pub(super) type Level = ([VertexId; 3], f64);
+pub(crate) type Level = ([VertexId; 3], f64);
 
 /// The triangles in level polygons. `bounds` has for each segment the polygon that it bounds, `levels` the height of each polygon.
-pub(super) fn level_triangles(
+pub(crate) fn level_triangles(
     c: &Constrained2,
     bounds: &[Option<u32>],
     levels: &[f64],

@@ -10,7 +10,7 @@ use delone::surface::{Duplicates, Several};
 /// The values of all points, rows of `width` of them: those given for the first points, and for points that were added on
 /// segments what these have there, linear between the given points; where segments differ, the mean. How far they differ
 /// from the first at most comes too. `free` says what other points have; of what it does not know, 0.
-pub(crate) fn extended(
+pub fn extended(
     c: &Constrained2,
     width: usize,
     given: &[f64],
@@ -55,7 +55,7 @@ pub(crate) fn extended(
 
 /// The linear function with these values at the ends of a segment, at a point on it; never beyond them. The same bits whichever end is
 /// first.
-pub(crate) fn along(p: [f64; 2], ends: [[f64; 2]; 2], values: [f64; 2]) -> f64 {
+pub fn along(p: [f64; 2], ends: [[f64; 2]; 2], values: [f64; 2]) -> f64 {
     let first = least(&ends);
     let [(a, of_a), (b, of_b)] = [first, 1 - first].map(|k| (ends[k], values[k]));
     let values = [of_a, of_b];
@@ -65,12 +65,12 @@ pub(crate) fn along(p: [f64; 2], ends: [[f64; 2]; 2], values: [f64; 2]) -> f64 {
 }
 
 /// Where the lexicographically least of some points is.
-pub(crate) fn least(points: &[[f64; 2]]) -> usize {
+pub fn least(points: &[[f64; 2]]) -> usize {
     (1..points.len()).fold(0, |least, k| if points[k] < points[least] { k } else { least })
 }
 
 /// A mean that rounding does not lead out; where it is none, because numbers are too large or too small, the least value.
-pub(crate) fn clamped(mean: f64, values: &[f64]) -> f64 {
+pub fn clamped(mean: f64, values: &[f64]) -> f64 {
     if values.iter().any(|value| value.is_nan()) {
         return f64::NAN;
     }

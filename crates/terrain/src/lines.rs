@@ -1,57 +1,95 @@
-//! Breaklines and level polygons: read, and given heights where they have none.
+//! Breaklines and level polygons, which are given heights where they have none.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::ops::Range;
 
 use delone::surface::{Duplicates, Interpolator, Outside, Several};
 use delone::{Constrained2, Crossings, SegmentId};
-use delone_io::{Cloud, Contents, Direction, Format, Graph};
+use delone_io::{Cloud, Crs, Graph};
 
-use super::surface::of_points;
-use crate::args::DtmArgs;
-use crate::constrained::along;
-use crate::files;
-use crate::message::{Failure, warn};
+use crate::error::Error;
+use crate::points::of_points;
+use crate::remark::Remark;
+use crate::values::along;
 
-/// All of them, one after the other.
-#[derive(Default)]
-pub(super) struct Lines {
-    pub(super) points: Vec<[f64; 2]>,
+/// Breaklines and level polygons, one after the other.
+///
+/// ```
+/// use std::io::Cursor;
+/// use delone_io::{Format, ReadOptions, read_graph};
+/// use delone_terrain::Lines;
+///
+/// let ridge = r#"{"type": "LineString", "coordinates": [[0, 0, 5], [9, 9, 7]]}"#;
+/// let ridge = read_graph(Box::new(Cursor::new(ridge)), Format::GeoJson, &ReadOptions::default(), None)?;
+/// let mut lines = Lines::new();
+/// lines.breaklines(&ridge)?;
+/// assert!(!lines.is_empty());
+/// # Ok::<(), delone_terrain::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Lines {
+    pub(crate) points: Vec<[f64; 2]>,
     /// The height of each point, where its file has it.
     given: Vec<Option<f64>>,
-    pub(super) segments: Vec<[usize; 2]>,
+    pub(crate) segments: Vec<[usize; 2]>,
     /// For each segment the level polygon that it bounds.
-    pub(super) bounds: Vec<Option<u32>>,
+    pub(crate) bounds: Vec<Option<u32>>,
     /// Points of each polygon that is level.
-    polygons: Vec<std::ops::Range<usize>>,
+    polygons: Vec<Range<usize>>,
     /// Points that segments were cut at, each with an end of its segment.
     cuts: Vec<[usize; 2]>,
+    systems: Vec<Crs>,
 }
 
 impl Lines {
-    /// Reads the files of a command.
-    pub(super) fn read(args: &DtmArgs, quiet: bool) -> Result<Self, Failure> {
-        let mut lines = Self::default();
-        let files = args.breaklines.iter().map(|path| (path, false));
-        for (path, is_level) in files.chain(args.flat.iter().map(|path| (path, true))) {
-            let graph = files::graph_beside(path, quiet)?;
-            if graph.segments.is_empty() {
-                let what = format!("{}: there is no line in it", path.display());
-                return Err(Failure::new(what, give("lines or polygons", Contents::Lines)));
-            }
-            if is_level && graph.rings.is_empty() {
-                return Err(no_polygon(path, "give polygons, or --breaklines for lines"));
-            }
-            lines.add(&graph, is_level, path, quiet);
+    /// No lines.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds lines that must be edges, with their own heights or, without, those of the surface below.
+    ///
+    /// # Errors
+    /// [`Error::NoLine`] if there is none.
+    pub fn breaklines(&mut self, graph: &Graph) -> Result<(), Error> {
+        if graph.segments.is_empty() {
+            return Err(Error::NoLine);
         }
-        Ok(lines)
+        self.add(graph);
+        Ok(())
+    }
+
+    /// Adds polygons that are level, water say: at the one height that they have, or at the lowest of the surface along their border.
+    ///
+    /// # Errors
+    /// [`Error::NoLine`] and [`Error::NoPolygon`] if there is none.
+    pub fn level(&mut self, graph: &Graph) -> Result<Vec<Remark>, Error> {
+        if graph.segments.is_empty() {
+            return Err(Error::NoLine);
+        }
+        if graph.rings.is_empty() {
+            return Err(Error::NoPolygon);
+        }
+        let (first, first_segment) = (self.points.len(), self.segments.len());
+        self.add(graph);
+        Ok(self.level_out(graph, first, first_segment))
+    }
+
+    /// Whether there is no line.
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// The systems of the lines' coordinates, where they are known.
+    pub fn systems(&self) -> &[Crs] {
+        &self.systems
     }
 
     /// Cuts segments into pieces that are not longer, so that what is on the other side of a line is behind its vertices.
     ///
     /// Where lines run along each other both are cut at the same places, the ends of either among them: places between are rounded, and
     /// pieces that nearly lie on each other would have no end of vertices that part them.
-    pub(super) fn cut(&mut self, longest: f64) -> Result<(), delone::Error> {
+    pub(crate) fn cut(&mut self, longest: f64) -> Result<(), delone::Error> {
         let c = Constrained2::with_crossings(&self.points, &self.segments, Crossings::Split)?;
         let known = self.points.len();
         for s in 0..self.segments.len() {
@@ -81,11 +119,7 @@ impl Lines {
         Ok(())
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.segments.is_empty()
-    }
-
-    fn add(&mut self, graph: &Graph, is_level: bool, path: &Path, quiet: bool) {
+    fn add(&mut self, graph: &Graph) {
         let first = self.points.len();
         self.points.extend(&graph.cloud.xy);
         match &graph.cloud.z {
@@ -93,13 +127,15 @@ impl Lines {
             None => self.given.resize(self.points.len(), None),
         }
         self.segments.extend(graph.segments.iter().map(|ends| ends.map(|i| i + first)));
-        let first_segment = self.bounds.len();
         self.bounds.resize(self.segments.len(), None);
-        if !is_level {
-            return;
-        }
-        for (k, polygon) in graph.rings.chunk_by(|a, b| a.polygon == b.polygon).enumerate() {
-            let corners = polygon.iter().flat_map(|ring| &graph.segments[ring.segments.clone()]).flatten();
+        self.systems.extend(graph.cloud.crs.clone());
+    }
+
+    /// Makes the polygons of a graph level whose points and segments were added from these on.
+    fn level_out(&mut self, graph: &Graph, first: usize, first_segment: usize) -> Vec<Remark> {
+        let mut remarks = Vec::new();
+        for (k, rings) in graph.rings.chunk_by(|a, b| a.polygon == b.polygon).enumerate() {
+            let corners = rings.iter().flat_map(|ring| &graph.segments[ring.segments.clone()]).flatten();
             let (from, to) = corners.fold((usize::MAX, 0), |(from, to), &i| (from.min(i), to.max(i + 1)));
             if from >= to {
                 continue;
@@ -109,24 +145,21 @@ impl Lines {
             let (low, high) =
                 known.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &z| (a.min(z), b.max(z)));
             if high > low {
-                let what = format!(
-                    "{}: polygon {k} is to be level and has heights from {low} to {high}",
-                    path.display()
-                );
-                warn(quiet, format_args!("{what}: the lowest is taken"));
+                remarks.push(Remark::SeveralLevels { polygon: k, low, high });
                 self.given[range.clone()].fill(Some(low));
             }
-            for ring in polygon {
+            for ring in rings {
                 let sides = first_segment + ring.segments.start..first_segment + ring.segments.end;
                 self.bounds[sides].fill(Some(self.polygons.len() as u32));
             }
             self.polygons.push(range);
         }
+        remarks
     }
 
     /// The heights of lines where points of the cloud are on them: the first `count` vertices, which no end of a line equals. Of several
     /// lines the rule chooses.
-    pub(super) fn heights_of_points_on(
+    pub(crate) fn heights_of_points_on(
         &self,
         c: &Constrained2,
         count: usize,
@@ -149,20 +182,14 @@ impl Lines {
     }
 
     /// The height of each point, and of each level polygon.
-    pub(super) fn heights(
-        &self,
-        cloud: &Cloud,
-        rule: Duplicates,
-        label: &Path,
-    ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
-        let failed = |error| Failure::points(label, &error);
+    pub(crate) fn heights(&self, cloud: &Cloud, rule: Duplicates) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let mut heights: Vec<f64> = self.given.iter().map(|z| z.unwrap_or(f64::NAN)).collect();
         if heights.iter().any(|z| z.is_nan()) {
-            let (below, of_below) = of_points(cloud, rule, label)?;
+            let (below, of_below) = of_points(cloud, rule)?;
             let mut surface = Interpolator::linear(&below).outside(Outside::Nearest);
             for (height, &p) in heights.iter_mut().zip(&self.points) {
                 if height.is_nan() {
-                    *height = surface.value(p, &of_below).map_err(failed)?.unwrap_or(0.0);
+                    *height = surface.value(p, &of_below).map_err(Error::Points)?.unwrap_or(0.0);
                 }
             }
         }
@@ -193,13 +220,4 @@ fn between(p: [f64; 2], q: [f64; 2], longest: f64) -> Vec<[f64; 2]> {
         places.reverse();
     }
     places
-}
-
-pub(super) fn no_polygon(path: &Path, help: &str) -> Failure {
-    Failure::new(format!("{}: there is no polygon in it", path.display()), help)
-}
-
-/// Advice on a file to give instead.
-pub(super) fn give(what: &str, contents: Contents) -> String {
-    format!("give {what} in one of {}", Format::with(&[contents], Direction::Read))
 }

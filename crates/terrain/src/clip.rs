@@ -6,35 +6,52 @@
 //!
 //! Cost: O(sides + columns) for each row, and a few times the logarithm of columns for each side that meets it.
 
-use std::path::Path;
-
 use delone::surface::Grid;
-use delone_io::{Contents, Format};
+use delone_io::{Crs, Graph};
 use delone_predicates::orient2d;
 
-use super::lines;
-use crate::files;
-use crate::message::Failure;
+use crate::error::Error;
 
 /// The rings of a polygon.
 type Rings = Vec<Vec<[f64; 2]>>;
 
 /// Polygons to clip to.
-pub(super) struct Clip {
+///
+/// ```
+/// use delone::surface::Grid;
+/// use delone_terrain::Clip;
+///
+/// let triangle = vec![vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]]];
+/// let grid = Grid::new([0.0, 2.0], [1.0, -1.0], 2, 2)?;
+/// let mut values = vec![5.0; 4];
+/// Clip::new(vec![triangle]).apply(&grid, &mut values);
+/// assert_eq!(values.iter().filter(|value| value.is_nan()).count(), 1);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Clip {
     polygons: Vec<Rings>,
+    crs: Option<Crs>,
 }
 
 impl Clip {
-    /// Reads them; the points of a file without polygons are one ring.
-    pub(super) fn read(path: &Path, quiet: bool) -> Result<Self, Failure> {
-        let format = files::format_beside(path)?;
-        let graph = files::graph_beside(path, quiet)?;
-        // Points of Triangle's graphs are a ring, whatever segments there are.
-        if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
-            return Err(lines::no_polygon(path, &lines::give("polygons", Contents::Polygons)));
-        }
+    /// Polygons of rings, which need not repeat their first point.
+    pub fn new(polygons: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
+        Self { polygons, crs: None }
+    }
+
+    /// The polygons of a file; if it has none, its points are one ring.
+    ///
+    /// # Errors
+    /// [`Error::NoPolygon`] for lines that are no rings.
+    pub fn of(graph: &Graph) -> Result<Self, Error> {
+        let crs = graph.cloud.crs.clone();
         if graph.rings.is_empty() {
-            return Ok(Self { polygons: vec![vec![graph.cloud.xy]] });
+            // Segments that all bound an area are those of a graph of Triangle, whose points are a ring.
+            if graph.is_border.iter().any(|is_border| !is_border) {
+                return Err(Error::NoPolygon);
+            }
+            return Ok(Self { polygons: vec![vec![graph.cloud.xy.clone()]], crs });
         }
         let ring = |sides: &[[usize; 2]]| sides.iter().map(|side| graph.cloud.xy[side[0]]).collect();
         let polygons = graph
@@ -42,11 +59,32 @@ impl Clip {
             .chunk_by(|a, b| a.polygon == b.polygon)
             .map(|rings| rings.iter().map(|r| ring(&graph.segments[r.segments.clone()])).collect())
             .collect();
-        Ok(Self { polygons })
+        Ok(Self { polygons, crs })
     }
 
-    /// Takes the values of cells outside of all polygons.
-    pub(super) fn apply(&self, grid: &Grid, values: &mut [f64]) {
+    /// These polygons and others.
+    ///
+    /// # Errors
+    /// [`Error::Systems`] if the coordinates of these are of another system.
+    pub fn with(mut self, other: Self) -> Result<Self, Error> {
+        match (&self.crs, other.crs) {
+            (Some(ours), Some(theirs)) if !ours.agrees(&theirs) => {
+                return Err(Error::Systems { ours: Box::new(ours.clone()), theirs: Box::new(theirs) });
+            }
+            (None, theirs) => self.crs = theirs,
+            _ => {}
+        }
+        self.polygons.extend(other.polygons);
+        Ok(self)
+    }
+
+    /// The system of the polygons' coordinates, where it is known.
+    pub fn crs(&self) -> Option<&Crs> {
+        self.crs.as_ref()
+    }
+
+    /// Takes the values of cells outside of all polygons: they become NaN.
+    pub fn apply(&self, grid: &Grid, values: &mut [f64]) {
         let columns = grid.columns();
         // How many polygons begin at a column, less those that end there.
         let mut begins = vec![0_i64; columns + 1];
@@ -113,7 +151,7 @@ mod tests {
             let polygons =
                 polygons.iter().map(|rings| rings.iter().map(|&ring| ring.clone()).collect()).collect();
             let mut values = vec![1.0; 64];
-            Clip { polygons }.apply(&grid, &mut values);
+            Clip::new(polygons).apply(&grid, &mut values);
             (values.iter().filter(|value| !value.is_nan()).count(), values)
         };
         let ((a, first), (b, second)) = (count(&[&[&lower]]), count(&[&[&upper]]));
