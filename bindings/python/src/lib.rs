@@ -8,6 +8,7 @@ mod alpha;
 mod arrays;
 mod constrained;
 mod diagram;
+mod dtm;
 mod errors;
 mod facets;
 mod graphs;
@@ -61,6 +62,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(terrain::contour_bands, m)?)?;
     m.add_function(wrap_pyfunction!(terrain::settled, m)?)?;
     m.add_function(wrap_pyfunction!(terrain::thin, m)?)?;
+    m.add_function(wrap_pyfunction!(dtm::dtm, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;
     m.add_function(wrap_pyfunction!(hull::sides, m)?)?;

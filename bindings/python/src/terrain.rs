@@ -249,6 +249,17 @@ pub fn contour_bands<'py>(
     Ok((table(py, 2, between)?, table(py, 2, points)?, rings, polygons, bands))
 }
 
+/// The rule for places at which there are several points, by its name.
+pub fn rule_of(name: &str) -> PyResult<Duplicates> {
+    match name {
+        "lowest" => Ok(Duplicates::Lowest),
+        "first" => Ok(Duplicates::First),
+        "highest" => Ok(Duplicates::Highest),
+        "mean" => Ok(Duplicates::Mean),
+        other => Err(PyValueError::new_err(format!("there is no rule {other:?}"))),
+    }
+}
+
 /// Heights after a rule for places at which there are several points: pairs of a point and the vertex that it equals.
 #[pyfunction]
 pub fn settled<'py>(
@@ -257,13 +268,7 @@ pub fn settled<'py>(
     pairs: PyReadonlyArray2<'py, i32>,
     rule: &str,
 ) -> PyResult<Column<'py, f64>> {
-    let rule = match rule {
-        "lowest" => Duplicates::Lowest,
-        "first" => Duplicates::First,
-        "highest" => Duplicates::Highest,
-        "mean" => Duplicates::Mean,
-        other => return Err(PyValueError::new_err(format!("there is no rule {other:?}"))),
-    };
+    let rule = rule_of(rule)?;
     let mut heights = heights.to_vec()?;
     let pairs = pairs.to_vec()?;
     let index = |i: i32| usize::try_from(i).ok().filter(|&i| i < heights.len());

@@ -104,6 +104,7 @@ ASKED = {
     "contours of few at many levels": (None, lambda _: delone.contours(PLANE[:300], HEIGHTS[:300], interval=1e-4)),
     "bands": ("plane", lambda d: delone.contours(d, HEIGHTS, interval=0.1, bands=True)),
     "contours constrained": ("constrained", lambda c: delone.contours(c, c.points[:, 0], interval=0.1)),
+    "dtm": (None, lambda _: delone.dtm(PLANE, HEIGHTS, cell=0.002, method="natural")),
     "simplify": (None, lambda _: delone.simplify(PLANE, HEIGHTS**2, max_error=0.01)),
     "ConstrainedDelaunay": (None, lambda _: delone.ConstrainedDelaunay(PLANE, [[0, 1]])),
     "ConstrainedDelaunay.points": ("constrained", lambda c: c.points),

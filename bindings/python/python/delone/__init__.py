@@ -17,6 +17,7 @@ delone.triangle.triangulate(dictionary, "pq30a.1")      # as the package triangl
 delone.euclidean_minimum_spanning_tree(points)
 delone.NaturalNeighborInterpolator(points, values)(x, y)
 delone.rasterize(points, z, cell=1.0), delone.contours(points, z, interval=10), delone.simplify(points, z, max_error=0.5)
+delone.dtm("tile.laz", cell=1.0, output="dem.tif")                                  # terrain models of files or arrays
 delone.tiles.triangulate(points, region), delone.dask.triangulate(array)       # more points than memory
 delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
@@ -27,6 +28,7 @@ from . import _delone, tiles, triangle
 from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
+from ._dtm import dtm
 from ._errors import CrossingError, QhullError
 from ._graphs import (
     beta_skeleton,
@@ -77,6 +79,7 @@ __all__ = [
     "Voronoi",
     "beta_skeleton",
     "contours",
+    "dtm",
     "euclidean_minimum_spanning_tree",
     "gabriel_graph",
     "knn_graph",

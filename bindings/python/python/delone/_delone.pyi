@@ -6,6 +6,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from ._dtm import Wanted as DtmWanted
 from ._mesh import Wishes
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "contour_lines",
     "convex_hull",
     "corners_of",
+    "dtm",
     "facet_equations",
     "facet_sizes",
     "furthest",
@@ -292,6 +294,9 @@ def thin(
     max_error: float,
     max_points: int | None,
 ) -> tuple[NDArray[np.int64], NDArray[np.int32], float]: ...
+def dtm(
+    points: tuple[NDArray[np.float64], NDArray[np.float64]] | None, paths: list[str], wishes: DtmWanted
+) -> tuple[NDArray[np.float64] | None, list[float], list[float], list[str]]: ...
 def proximity_graph(points: NDArray[np.float64], kind: str, parameter: float) -> NDArray[np.int64]: ...
 
 @final

@@ -97,7 +97,7 @@ def rasterize(
     sheet, mask, heights, at = _sheet(points, z, duplicates)
     if isinstance(sheet, _delone.Constrained) and method_ != "linear":
         raise ValueError(f'method must be "linear" for a ConstrainedDelaunay, not {method_!r}')
-    longest = _longest(max_edge, max_edge_anywhere)
+    longest = as_longest(max_edge, max_edge_anywhere)
     if cell is None:
         values, xs, ys, _, _ = _delone.paint(sheet, method_, heights, (c, f, a, e), (columns, rows), None, mask, longest)
         made: Transform = (a, 0.0, c, 0.0, e, f)
@@ -224,7 +224,7 @@ def contours(
     given = None if levels is None else np.atleast_1d(as_numbers(levels, "levels")).astype(np.float64)
     if given is not None and given.ndim > 1:
         raise ValueError(f"levels must be a number or a list of numbers, not an array of the shape {given.shape}")
-    longest = _longest(max_edge, max_edge_anywhere)
+    longest = as_longest(max_edge, max_edge_anywhere)
     sheet, mask, heights, _ = _sheet(points, z, duplicates)
     wanted = (
         None if given is None else given.tolist(),
@@ -299,7 +299,7 @@ def simplify(
             raise ValueError(f"max_points must not be negative, but is {max_points}")
         max_points = min(max_points, 2**62)
     at = as_points(points, columns=2)
-    heights = _heights(z, len(at))
+    heights = as_heights(z, len(at))
     ends = as_segments(segments, len(at))
     return Simplified(*_delone.thin(at, heights, ends, 0.0 if max_error is None else float(max_error), max_points))
 
@@ -311,17 +311,17 @@ def _sheet(
     rule_ = as_choice(rule, ("lowest", "first", "highest", "mean"), "duplicates")
     if isinstance(points, ConstrainedDelaunay):
         mask = None if points.fill == "all" else np.ascontiguousarray(points.inside)
-        return points._core, mask, _settled(points._core, _heights(z, points.npoints), rule_), points.points
+        return points._core, mask, _settled(points._core, as_heights(z, points.npoints), rule_), points.points
     if not isinstance(points, Delaunay):
         at = as_points(points, columns=2)
-        heights = _heights(z, len(at))
+        heights = as_heights(z, len(at))
         core = Delaunay(at)._core
         return core, None, _settled(core, heights, rule_), at
     if points.furthest_site:
         raise ValueError("heights need a triangulation of nearest sites, not of furthest ones")
     if points.ndim != 2:
         raise ValueError("heights are at points of the plane: give x and y as points, and the heights as z")
-    return points._core, None, _settled(points._core, _heights(z, points.npoints), rule_), points.points
+    return points._core, None, _settled(points._core, as_heights(z, points.npoints), rule_), points.points
 
 
 def _settled(core: _delone.Triangulation | _delone.Constrained, heights: NDArray[np.float64], rule: str) -> NDArray[np.float64]:
@@ -330,7 +330,7 @@ def _settled(core: _delone.Triangulation | _delone.Constrained, heights: NDArray
     return _delone.settled(heights, pairs, rule) if len(pairs) else heights
 
 
-def _heights(z: ArrayLike, count: int) -> NDArray[np.float64]:
+def as_heights(z: ArrayLike, count: int) -> NDArray[np.float64]:
     array = as_numbers(z, "z")
     if array.shape != (count,):
         raise ValueError(f"z must have the shape ({count},), a height for each point, not {array.shape}")
@@ -364,7 +364,7 @@ def _shape(shape: tuple[int, int]) -> tuple[int, int]:
     return rows, columns
 
 
-def _longest(max_edge: float | None, max_edge_anywhere: float | None) -> tuple[float, bool] | None:
+def as_longest(max_edge: float | None, max_edge_anywhere: float | None) -> tuple[float, bool] | None:
     """The longest edge that triangles may have, and whether longer ones go wherever they are."""
     if max_edge is not None and max_edge_anywhere is not None:
         raise ValueError("give max_edge or max_edge_anywhere, not both")
