@@ -96,6 +96,14 @@ impl Failure {
     }
 }
 
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
 /// A line on standard error, if somebody reads it.
 pub(crate) fn tell(text: impl Display) {
     _ = writeln!(std::io::stderr(), "{text}");

@@ -1,5 +1,7 @@
 //! The cells of a raster: around points, over an area, or those of another raster.
 
+use std::ops::Range;
+
 use delone::Bounds;
 use delone::surface::Grid;
 
@@ -141,4 +143,9 @@ pub(crate) fn round(size: f64) -> f64 {
     }
     let power = 10f64.powf(size.log10().floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|k| k * power).find(|&x| x >= size).unwrap_or(size)
+}
+
+/// Rows in bands of so many.
+pub(crate) fn even(grid: &Grid, rows: usize) -> Vec<Range<usize>> {
+    (0..grid.rows()).step_by(rows).map(|first| first..(first + rows).min(grid.rows())).collect()
 }

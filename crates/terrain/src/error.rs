@@ -69,6 +69,18 @@ pub enum Error {
         /// The other one.
         theirs: Box<Crs>,
     },
+    /// Something needs all triangles in memory.
+    #[error("{0} needs all triangles in memory")]
+    NeedsMemory(&'static str),
+    /// Not even a row of the raster fits into memory.
+    #[error("a row of {columns} cells does not fit into memory")]
+    LargeRow {
+        /// The columns of the raster.
+        columns: usize,
+    },
+    /// A folder of tiles cannot be made or read.
+    #[error(transparent)]
+    Store(#[from] delone_store::Error),
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] delone_io::Error),

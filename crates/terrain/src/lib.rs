@@ -32,6 +32,7 @@
 //! | lines that are edges, water that is level | [`Lines`] |
 //! | cells over an area, or those of another raster | [`Cells`] |
 //! | the method, heights of equal points, long edges that go | [`Options`] |
+//! | points in a folder of tiles, more than memory | [`Tiled`], [`Terrain::of_tiles`] |
 //! | heights | [`Terrain::values`], [`Terrain::rows`], [`Surface::values`] |
 //! | nothing outside of polygons | [`Terrain::clipped`], [`Clip`] |
 //! | files | [`Terrain::write`], [`Sheets`] |
@@ -49,6 +50,7 @@ mod remark;
 mod sheets;
 mod surface;
 mod terrain;
+mod tiled;
 pub mod values;
 
 pub use cells::{Cells, bounds};
@@ -61,3 +63,4 @@ pub use remark::Remark;
 pub use sheets::{Fault, Product, Sheets};
 pub use surface::{Counts, Surface, heights_of};
 pub use terrain::{Terrain, is_map};
+pub use tiled::Tiled;

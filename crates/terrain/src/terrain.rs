@@ -4,13 +4,13 @@ use std::io::Write;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
-use delone::surface::Grid;
+use delone::surface::{ContourLine, Grid};
 use delone_io::{
     Cloud, Contents, ContourMap, Crs, Direction, Format, Output, Said, beside_raster, besides_of_raster,
     give_names, write_contours,
 };
 
-use crate::cells::{Cells, bounds};
+use crate::cells::{Cells, bounds, even};
 use crate::clip::Clip;
 use crate::error::Error;
 use crate::lines::Lines;
@@ -18,9 +18,17 @@ use crate::options::Options;
 use crate::remark::Remark;
 use crate::sheets::{Product, Sheets};
 use crate::surface::{Surface, heights_of};
+use crate::tiled::Tiled;
 
 /// Cells that are made at a time.
 const CELLS_AT_ONCE: usize = 1 << 24;
+
+/// The surface below a model.
+#[derive(Debug)]
+enum Ground {
+    Points(Box<Surface>),
+    Tiles(Box<Tiled>),
+}
 
 /// A terrain model of points.
 ///
@@ -34,9 +42,9 @@ const CELLS_AT_ONCE: usize = 1 << 24;
 /// assert_eq!(terrain.values()?, [2.0; 4]);
 /// # Ok::<(), delone_terrain::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Terrain {
-    surface: Surface,
+    ground: Ground,
     grid: Grid,
     clip: Option<Clip>,
     crs: Option<Crs>,
@@ -55,7 +63,18 @@ impl Terrain {
         let surface = Surface::new(cloud, lines, &grid, options)?;
         let remarks = cells.remark(&bounds, &grid).into_iter().chain(surface.remarks().iter().cloned());
         let remarks = remarks.collect();
-        Ok(Self { surface, grid, clip: None, crs: cloud.crs.clone(), remarks })
+        let ground = Ground::Points(Box::new(surface));
+        Ok(Self { ground, grid, clip: None, crs: cloud.crs.clone(), remarks })
+    }
+
+    /// The surface of a folder of tiles, over cells.
+    ///
+    /// # Errors
+    /// As [`Cells::grid`].
+    pub fn of_tiles(tiles: Tiled, cells: &Cells) -> Result<Self, Error> {
+        let grid = cells.grid(tiles.bounds(), tiles.store().summary().points)?;
+        let remarks = cells.remark(tiles.bounds(), &grid).into_iter().collect();
+        Ok(Self { ground: Ground::Tiles(Box::new(tiles)), grid, clip: None, crs: None, remarks })
     }
 
     /// Leaves heights inside of polygons alone.
@@ -77,9 +96,12 @@ impl Terrain {
         Self { crs, ..self }
     }
 
-    /// The surface.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
+    /// The surface, if it is not that of a folder of tiles.
+    pub fn surface(&self) -> Option<&Surface> {
+        match &self.ground {
+            Ground::Points(surface) => Some(surface),
+            Ground::Tiles(_) => None,
+        }
     }
 
     /// The cells.
@@ -98,17 +120,35 @@ impl Terrain {
     }
 
     /// The rows in bands that are made at once.
-    pub fn bands(&self) -> Vec<Range<usize>> {
-        even(&self.grid, (CELLS_AT_ONCE / self.grid.columns().max(1)).max(1))
+    ///
+    /// # Errors
+    /// [`Error::LargeRow`] if the memory of a folder of tiles does not hold a row.
+    pub fn bands(&self) -> Result<Vec<Range<usize>>, Error> {
+        let at_once = (CELLS_AT_ONCE / self.grid.columns().max(1)).max(1);
+        match &self.ground {
+            Ground::Points(_) => Ok(even(&self.grid, at_once)),
+            Ground::Tiles(tiles) => tiles.bands(&self.grid, at_once),
+        }
+    }
+
+    /// The lines of equal height, at multiples of an interval; without one there are about ten heights.
+    ///
+    /// # Errors
+    /// [`Error::NeedsMemory`] for a folder of tiles; as [`Surface::contours`].
+    pub fn contours(&self, interval: Option<f64>) -> Result<Vec<ContourLine>, Error> {
+        self.surface().ok_or(Error::NeedsMemory("a map of contours"))?.contours(interval)
     }
 
     /// The heights of some rows.
     ///
     /// # Errors
-    /// As [`Surface::values`].
+    /// As [`Surface::values`] and [`Tiled::values`].
     pub fn rows(&self, rows: Range<usize>) -> Result<Vec<f64>, Error> {
         let window = self.grid.window(0..self.grid.columns(), rows);
-        let mut values = self.surface.values(&window)?;
+        let mut values = match &self.ground {
+            Ground::Points(surface) => surface.values(&window),
+            Ground::Tiles(tiles) => tiles.values(&window),
+        }?;
         if let Some(clip) = &self.clip {
             clip.apply(&window, &mut values);
         }
@@ -118,9 +158,13 @@ impl Terrain {
     /// The heights of all cells, row by row; NaN where there is none.
     ///
     /// # Errors
-    /// As [`Surface::values`].
+    /// As [`Self::rows`] and [`Self::bands`].
     pub fn values(&self) -> Result<Vec<f64>, Error> {
-        self.rows(0..self.grid.rows())
+        let mut values = Vec::new();
+        for band in self.bands()? {
+            values.append(&mut self.rows(band)?);
+        }
+        Ok(values)
     }
 
     /// Contents of the model that files lack: the system of coordinates, of formats that have no room for it.
@@ -158,7 +202,7 @@ impl Terrain {
         let (maps, rasters): (Vec<_>, Vec<_>) = files.iter().partition(|file| is_map(file.1));
         let mut done = Vec::new();
         if !maps.is_empty() {
-            let lines = self.surface.contours(product.interval)?;
+            let lines = self.contours(product.interval)?;
             let map = ContourMap { lines: &lines, bands: &[], crs: self.crs.as_ref() };
             for (path, format) in maps {
                 let mut write = || {
@@ -177,7 +221,7 @@ impl Terrain {
             let output = Output::create(path).map_err(|error| at(path)(error.into()))?;
             sheets.add(output, *format, scratch).map_err(at(path))?;
         }
-        let bands = if rasters.is_empty() { Vec::new() } else { self.bands() };
+        let bands = if rasters.is_empty() { Vec::new() } else { self.bands()? };
         for band in bands {
             let end = band.end;
             sheets.write_rows(&self.rows(band)?).map_err(|(k, error)| at(&rasters[k].0)(error))?;
@@ -225,9 +269,4 @@ fn stale_sides(path: &Path, format: Format, written: Option<&Path>) -> Vec<PathB
     let mut sides = besides_of_raster(path, format);
     sides.retain(|side| side.is_file() && Some(side.as_path()) != written && !is_shapes(side));
     sides
-}
-
-/// Rows in bands of so many.
-fn even(grid: &Grid, rows: usize) -> Vec<Range<usize>> {
-    (0..grid.rows()).step_by(rows).map(|first| first..(first + rows).min(grid.rows())).collect()
 }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use delone::surface::Duplicates;
 use delone_io::Format;
 
 use super::{InputArgs, WktArgs, count};
@@ -67,9 +66,6 @@ pub(crate) struct TilesArgs {
     /// Points of a tile at most, instead of as many as memory allows.
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,
-    /// Which height counts where points are equal.
-    #[arg(skip = Duplicates::First)]
-    pub(crate) duplicates: Duplicates,
 }
 
 /// Cut a part, or an overview, out of a folder of tiles.

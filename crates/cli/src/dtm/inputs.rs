@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use delone::surface::Duplicates;
 use delone_io::{Cloud, Format, LAS_CLASSES, TemporaryFolder};
+use delone_store::{Build, Store};
 use delone_terrain::{Clip, Error, GROUND, Lines, Remark};
 
 use super::failure::{failure, failure_of_level};
-use crate::args::{DtmArgs, InputArgs, TilesArgs};
+use crate::args::{DtmArgs, InputArgs};
 use crate::files;
 use crate::message::{Failure, note, warn};
+use crate::tiles::{self, Watched};
 
 /// The files of a command, and of these ground alone where nothing else is said.
 pub(super) fn resolve(args: &DtmArgs) -> InputArgs {
@@ -29,7 +30,7 @@ fn has_classes(input: &InputArgs) -> bool {
 /// Refuses points that have no surface.
 pub(super) fn check(cloud: &Cloud, label: &Path, args: &DtmArgs) -> Result<(), Failure> {
     check_count(cloud.xy.len() as u64, label, args)?;
-    delone_terrain::heights_of(cloud).map(drop).map_err(|error| failure(label, &error))
+    delone_terrain::heights_of(cloud).map(drop).map_err(|error| failure(label, error))
 }
 
 /// Refuses no points.
@@ -59,11 +60,11 @@ pub(super) fn lines(args: &DtmArgs, quiet: bool) -> Result<Lines, Failure> {
     let mut lines = Lines::new();
     for path in &args.breaklines {
         let graph = files::graph_beside(path, quiet)?;
-        lines.breaklines(&graph).map_err(|error| failure(path, &error))?;
+        lines.breaklines(&graph).map_err(|error| failure(path, error))?;
     }
     for path in &args.flat {
         let graph = files::graph_beside(path, quiet)?;
-        let remarks = lines.level(&graph).map_err(|error| failure_of_level(path, &error))?;
+        let remarks = lines.level(&graph).map_err(|error| failure_of_level(path, error))?;
         remarks.iter().for_each(|remark| tell(remark, Some(path), quiet));
     }
     Ok(lines)
@@ -75,9 +76,9 @@ pub(super) fn clip(path: &Path, quiet: bool) -> Result<Clip, Failure> {
     let graph = files::graph_beside(path, quiet)?;
     // Points of Triangle's graphs are a ring, whatever segments there are.
     if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
-        return Err(failure(path, &Error::NoPolygon));
+        return Err(failure(path, Error::NoPolygon));
     }
-    Clip::of(&graph).map_err(|error| failure(path, &error))
+    Clip::of(&graph).map_err(|error| failure(path, error))
 }
 
 /// Tells of a remark, and the file that it is about.
@@ -99,18 +100,14 @@ pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TemporaryFolder
     })
 }
 
-/// The arguments of tiles, but for the folder and the memory.
-pub(super) fn tiles(input: InputArgs) -> TilesArgs {
-    TilesArgs {
-        input,
-        output: PathBuf::new(),
-        memory: 0,
-        resume: false,
-        workers: None,
-        heights: true,
-        neighbors: false,
-        parquet: false,
-        tile: None,
-        duplicates: Duplicates::First,
-    }
+/// Makes tiles of the input in a folder, with heights.
+pub(super) fn tiles(
+    args: &DtmArgs,
+    input: &InputArgs,
+    (folder, memory): (&Path, u64),
+    watch: &Watched,
+) -> Result<(Store, Cloud), Failure> {
+    let files = crate::tiles::input(input, true)?;
+    let build = Build::new().memory(memory).heights(true).duplicates(args.duplicates.rule()).tile(args.tile);
+    build.run(&files, folder, watch).map_err(tiles::failure)
 }

@@ -5,31 +5,26 @@
 
 mod bands;
 mod failure;
-mod held;
 mod inputs;
 
 use std::mem::ManuallyDrop;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use delone::Bounds;
-use delone::surface::Grid;
 use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, besides_of_raster, write_contours};
-use delone_terrain::{Clip, Error, Options, Product, Terrain, is_map};
+use delone_store::Store;
+use delone_terrain::{Clip, Options, Product, Surface, Terrain, Tiled, is_map};
 
-use crate::args::{DtmArgs, MethodName, TilesArgs};
+use crate::args::DtmArgs;
 use crate::files;
 use crate::message::{Failure, grouped, say, warn};
 use crate::place::Place;
 use crate::progress::Phase;
 use crate::stats::Stats;
-use crate::tiles::Held;
+use crate::tiles::Watched;
 use failure::failure;
 
-/// Bytes of a cell of the row that is made, at the most.
-const ROW: f64 = 64.0;
-/// Cells that are made at a time, where nobody limits memory.
-const AT_ONCE: usize = 1 << 24;
+/// The rows of a band where tiles are small for tests.
+const ROWS_OF_TESTS: usize = 7;
 
 pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     let input = inputs::resolve(args);
@@ -57,16 +52,13 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     match args.memory {
         Some(memory) if in_chunks => {
             let folder = inputs::workspace(&outputs)?;
-            let tiles = TilesArgs {
-                output: folder.path().to_owned(),
-                memory,
-                heights: true,
-                duplicates: args.duplicates.rule(),
-                tile: args.tile,
-                ..inputs::tiles(input)
+            // The folder itself is locked, so that others leave it alone.
+            let tiles = folder.path().join("tiles");
+            let store = {
+                let watch = Watched::of(&tiles, &mut stats, quiet).until_read();
+                inputs::tiles(args, &input, (&tiles, memory), &watch)?
             };
-            let (held, about) = Held::make(&tiles, &mut stats, quiet)?;
-            job.held(&held, &about, memory, &mut stats)?;
+            job.in_tiles(store, memory, &tiles, &mut stats)?;
         }
         memory => {
             if memory.is_some() {
@@ -156,21 +148,13 @@ impl Job<'_> {
         inputs::check(cloud, &self.label, args)?;
         let crs = self.crs(cloud);
         let lines = inputs::lines(args, quiet)?;
-        let options = Options::new()
-            .method(args.method.method())
-            .duplicates(args.duplicates.rule())
-            .border(args.edges.border());
         let has_lines = !lines.is_empty();
         let phase = Phase::start(quiet, "triangulating");
-        let made = Terrain::new(cloud, lines, &self.place.cells, &options);
-        let mut terrain = made.map_err(|error| failure(&self.label, &error))?.with_crs(crs);
+        let made = Terrain::new(cloud, lines, &self.place.cells, &self.options());
+        let terrain = made.map_err(|error| failure(&self.label, error))?;
         drop(phase);
-        if let Some(clip) = self.clip.take() {
-            terrain = terrain.clipped(clip).map_err(|error| failure(&self.label, &error))?;
-        }
-        let terrain = ManuallyDrop::new(terrain);
-        terrain.remarks().iter().for_each(|remark| inputs::tell(remark, None, quiet));
-        let counts = terrain.surface().counts();
+        let terrain = ManuallyDrop::new(self.finished(terrain, crs)?);
+        let counts = terrain.surface().map(Surface::counts).unwrap_or_default();
         if has_lines {
             stats.set("crossings", counts.crossings);
         }
@@ -183,62 +167,64 @@ impl Job<'_> {
         let maps: Vec<_> = self.outputs.iter().filter(|output| is_map(output.1)).collect();
         let mut contours = Vec::new();
         if !maps.is_empty() {
-            let drawn = terrain.surface().contours(args.interval);
-            contours = drawn.map_err(|error| failure(&self.label, &error))?;
+            let drawn = terrain.contours(args.interval);
+            contours = drawn.map_err(|error| failure(&self.label, error))?;
             stats.set("lines", contours.len());
         }
         let map = ContourMap { lines: &contours, bands: &[], crs: terrain.crs() };
         for (path, format) in maps {
             files::write(path, |out| write_contours(out, *format, &map, 0))?;
         }
-        self.rasters(terrain.grid(), terrain.crs(), &terrain.bands(), stats, |rows| {
-            terrain.rows(rows).map_err(|error| failure(&self.label, &error))
-        })
+        self.rasters(&terrain, stats)
     }
 
-    fn held(&self, held: &Held, about: &Cloud, memory: u64, stats: &mut Stats) -> Result<(), Failure> {
-        let Self { args, .. } = *self;
-        let count = stats.get("points").as_u64().unwrap_or(0);
-        inputs::check_count(count, &self.label, args)?;
-        if stats.get("simplices").as_u64() == Some(0) {
-            return Err(failure(&self.label, &Error::OneLine));
-        }
-        let crs = self.crs(about);
-        let grid = self.grid(&held.bounds, count)?;
-        let free = (memory - (40 << 20)) as f64;
-        // A band has its values twice, and where neighbors are asked its points.
-        let rows = (free / 8.0 / 16.0 / grid.columns() as f64) as usize;
-        if rows == 0 && free < ROW * grid.columns() as f64 {
-            let what = format!(
-                "{}: a row of {} cells does not fit into --memory",
-                self.label.display(),
-                grid.columns()
-            );
-            return Err(Failure::new(what, "allow more memory, or choose a larger --cell"));
-        }
-        let rows = rows.max(1);
-        let rows = if args.tile.is_some() { 7 } else { rows };
-        let mut bands = even(&grid, rows.min((AT_ONCE / grid.columns()).max(1)));
-        if args.method != MethodName::Linear {
-            let most = free / 2.0 / 700.0;
-            bands = bands.into_iter().flat_map(|rows| split(held, &grid, rows, most)).collect();
-        }
-        self.rasters(&grid, crs.as_ref(), &bands, stats, |rows| {
-            let window = grid.window(0..grid.columns(), rows);
-            let mut values = held::values(held, args.method.method(), args.edges.max_edge_anywhere, &window)?;
-            self.clip.iter().for_each(|clip| clip.apply(&window, &mut values));
-            Ok(values)
-        })
-    }
-
-    fn rasters(
-        &self,
-        grid: &Grid,
-        crs: Option<&Crs>,
-        bands: &[Range<usize>],
+    fn in_tiles(
+        &mut self,
+        (store, about): (Store, Cloud),
+        memory: u64,
+        folder: &Path,
         stats: &mut Stats,
-        values: impl Fn(Range<usize>) -> Result<Vec<f64>, Failure>,
     ) -> Result<(), Failure> {
+        let Self { args, quiet, .. } = *self;
+        let summary = store.summary();
+        inputs::check_count(summary.points, &self.label, args)?;
+        stats.set("points", summary.points);
+        stats.set("duplicates", summary.duplicates);
+        stats.set("vertices", summary.vertices);
+        stats.set("simplices", summary.triangles);
+        stats.set("hull", summary.hull);
+        stats.set("tiles", summary.tiles);
+        let watch = Watched::new(folder, quiet);
+        let tiles = Tiled::new(store, memory, &self.options(), &watch)
+            .map_err(|error| failure(&self.label, error))?
+            .rows(args.tile.map(|_| ROWS_OF_TESTS));
+        stats.phase("build");
+        let crs = self.crs(&about);
+        let terrain = Terrain::of_tiles(tiles, &self.place.cells);
+        let terrain = self.finished(terrain.map_err(|error| failure(&self.label, error))?, crs)?;
+        self.rasters(&terrain, stats)
+    }
+
+    /// How the surface is made.
+    fn options(&self) -> Options {
+        let args = self.args;
+        Options::new()
+            .method(args.method.method())
+            .duplicates(args.duplicates.rule())
+            .border(args.edges.border())
+    }
+
+    /// The model with its system and its polygons; tells its remarks.
+    fn finished(&mut self, terrain: Terrain, crs: Option<Crs>) -> Result<Terrain, Failure> {
+        let terrain = terrain.with_crs(crs);
+        terrain.remarks().iter().for_each(|remark| inputs::tell(remark, None, self.quiet));
+        match self.clip.take() {
+            Some(clip) => terrain.clipped(clip).map_err(|error| failure(&self.label, error)),
+            None => Ok(terrain),
+        }
+    }
+
+    fn rasters(&self, terrain: &Terrain, stats: &mut Stats) -> Result<(), Failure> {
         let product = Product::new()
             .nodata(self.args.nodata)
             .compression(self.args.compress.into())
@@ -248,7 +234,11 @@ impl Job<'_> {
             stats.tell(self.quiet, ["triangle", "triangles"]);
             return Ok(());
         }
-        let known = bands::write(&rasters, (grid, crs, &product), bands, self.quiet, values)?;
+        let failed = |error| failure(&self.label, error);
+        let (grid, bands) = (terrain.grid(), terrain.bands().map_err(failed)?);
+        let known = bands::write(&rasters, (grid, terrain.crs(), &product), &bands, self.quiet, |rows| {
+            terrain.rows(rows).map_err(failed)
+        })?;
         stats.set("cells", grid.cells());
         stats.set("columns", grid.columns());
         stats.set("rows", grid.rows());
@@ -283,18 +273,6 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// The cells of the raster, of tiles.
-    fn grid(&self, bounds: &Bounds<2>, count: u64) -> Result<Grid, Failure> {
-        let made = self.place.cells.grid(bounds, count);
-        let grid = made.map_err(|error| failure(&self.label, &error))?;
-        self.place
-            .cells
-            .remark(bounds, &grid)
-            .iter()
-            .for_each(|remark| inputs::tell(remark, None, self.quiet));
-        Ok(grid)
-    }
-
     fn crs(&self, about: &Cloud) -> Option<Crs> {
         let crs = self.place.crs(about.crs.as_ref());
         if crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
@@ -302,20 +280,4 @@ impl Job<'_> {
         }
         crs
     }
-}
-
-/// Rows in bands of so many.
-fn even(grid: &Grid, rows: usize) -> Vec<Range<usize>> {
-    (0..grid.rows()).step_by(rows).map(|first| first..(first + rows).min(grid.rows())).collect()
-}
-
-/// Halves a band until it does not have more points than are allowed, about.
-fn split(held: &Held, grid: &Grid, rows: Range<usize>, most: f64) -> Vec<Range<usize>> {
-    let count = held.count_between([grid.y(rows.end - 1), grid.y(rows.start)]);
-    if count <= most || rows.len() < 2 {
-        return vec![rows];
-    }
-    let middle = usize::midpoint(rows.start, rows.end);
-    let halves = [rows.start..middle, middle..rows.end];
-    halves.into_iter().flat_map(|half| split(held, grid, half, most)).collect()
 }

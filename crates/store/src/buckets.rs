@@ -15,34 +15,34 @@ use delone_io::sync_file;
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
 
-use super::input::hashed;
-use super::manifest::place;
-use super::own;
-use crate::message::Failure;
+use crate::error::Error;
+use crate::input::hashed;
+use crate::own;
+use crate::places::place;
 
 /// Where the bucket of a tile is.
-pub(super) fn bucket(folder: &Path, node: Node) -> PathBuf {
+pub(crate) fn bucket(folder: &Path, node: Node) -> PathBuf {
     place(folder, "bucket", node, "bin")
 }
 
 /// The content of a bucket: the number of its points, and the hash of their bytes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Filled {
-    pub(super) points: u64,
-    pub(super) sum: u64,
+pub(crate) struct Filled {
+    pub(crate) points: u64,
+    pub(crate) sum: u64,
 }
 
 /// The points of a bucket.
 #[derive(Default)]
-pub(super) struct Content {
-    pub(super) points: Vec<[f64; 2]>,
+pub(crate) struct Content {
+    pub(crate) points: Vec<[f64; 2]>,
     /// As many, or none where heights are not kept.
-    pub(super) heights: Vec<f64>,
-    pub(super) ids: Vec<u64>,
+    pub(crate) heights: Vec<f64>,
+    pub(crate) ids: Vec<u64>,
 }
 
 /// Bytes of a record.
-pub(super) fn width(has_heights: bool) -> usize {
+pub(crate) fn width(has_heights: bool) -> usize {
     if has_heights { 32 } else { 24 }
 }
 
@@ -50,7 +50,7 @@ pub(super) fn width(has_heights: bool) -> usize {
 const HEIGHT: u64 = 16;
 
 /// Buckets that are being filled.
-pub(super) struct Buckets<'a> {
+pub(crate) struct Buckets<'a> {
     folder: &'a Path,
     cuts: &'a Cuts,
     has_heights: bool,
@@ -64,13 +64,13 @@ pub(super) struct Buckets<'a> {
 
 impl<'a> Buckets<'a> {
     /// Empty ones, for the tiles at a node and below.
-    pub(super) fn new(
+    pub(crate) fn new(
         folder: &'a Path,
         cuts: &'a Cuts,
         below: Node,
         has_heights: bool,
         buffer: usize,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let mut tiles = cuts.parts(below, u32::BITS);
         if tiles.is_empty() {
             tiles.push(below);
@@ -80,7 +80,7 @@ impl<'a> Buckets<'a> {
             let path = bucket(folder, tile);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(unwritten(&path, &error));
+                    return Err(unwritten(&path, error));
                 }
                 _ => {}
             }
@@ -99,17 +99,17 @@ impl<'a> Buckets<'a> {
     }
 
     /// Takes points whose indices are consecutive.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         first: u64,
         points: &[[f64; 2]],
         heights: Option<&[f64]>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let ids: Vec<u64> = (first..first + points.len() as u64).collect();
         self.put(points, heights.unwrap_or_default(), &ids)
     }
 
-    fn put(&mut self, points: &[[f64; 2]], heights: &[f64], ids: &[u64]) -> Result<(), Failure> {
+    fn put(&mut self, points: &[[f64; 2]], heights: &[f64], ids: &[u64]) -> Result<(), Error> {
         let tile_of = |&p: &[f64; 2]| {
             let own = self.cuts.tile_of(p);
             self.tiles.partition_point(|&tile| tile < own) as u32
@@ -131,21 +131,21 @@ impl<'a> Buckets<'a> {
         Ok(())
     }
 
-    fn write(&mut self, tile: usize) -> Result<(), Failure> {
+    fn write(&mut self, tile: usize) -> Result<(), Error> {
         let path = bucket(self.folder, self.tiles[tile]);
         let append = || own::append(&path)?.write_all(&self.waiting[tile]);
-        append().map_err(|error| unwritten(&path, &error))?;
+        append().map_err(|error| unwritten(&path, error))?;
         self.hashers[tile].write(&self.waiting[tile]);
         self.waiting[tile].clear();
         Ok(())
     }
 
     /// Writes what is left, to the disk, and tells what each tile has.
-    pub(super) fn finish(mut self) -> Result<BTreeMap<Node, Filled>, Failure> {
+    pub(crate) fn finish(mut self) -> Result<BTreeMap<Node, Filled>, Error> {
         for tile in 0..self.tiles.len() {
             self.write(tile)?;
             let path = bucket(self.folder, self.tiles[tile]);
-            sync_file(&path).map_err(|error| unwritten(&path, &error))?;
+            sync_file(&path).map_err(|error| unwritten(&path, error))?;
         }
         let filled = self.counts.into_iter().zip(self.hashers);
         let filled = filled.map(|(points, hasher)| Filled { points, sum: hasher.finish() });
@@ -154,7 +154,7 @@ impl<'a> Buckets<'a> {
 }
 
 /// Removes all buckets of a folder.
-pub(super) fn remove_all(folder: &Path) {
+pub(crate) fn remove_all(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if entry.file_name().to_string_lossy().starts_with("bucket-") {
             _ = fs::remove_file(entry.path());
@@ -162,18 +162,17 @@ pub(super) fn remove_all(folder: &Path) {
     }
 }
 
-fn unwritten(path: &Path, error: &io::Error) -> Failure {
-    let help = "make room on the disk, or check the permissions; then go on with --resume";
-    Failure::new(format!("cannot write {}: {error}", path.display()), help)
+fn unwritten(path: &Path, error: io::Error) -> Error {
+    Error::WriteBucket { path: path.to_owned(), error }
 }
 
 /// Whether a bucket is there and as long as so many points are.
-pub(super) fn check(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<(), Failure> {
+pub(crate) fn check(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<(), Error> {
     open(folder, node, count, has_heights).map(|_| ())
 }
 
 /// A bucket that should have so many points.
-fn open(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<File, Failure> {
+fn open(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<File, Error> {
     let path = bucket(folder, node);
     let file = own::open(&path)
         .map_err(|error| lost(&path, format_args!("the bucket of a tile cannot be read: {error}")))?;
@@ -187,13 +186,12 @@ fn open(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<File
     Ok(file)
 }
 
-fn lost(path: &Path, what: impl std::fmt::Display) -> Failure {
-    let help = "its points are lost: start again in another folder, or with this one empty";
-    Failure::new(format!("{}: {what}", path.display()), help)
+fn lost(path: &Path, what: impl std::fmt::Display) -> Error {
+    Error::Bucket { path: path.to_owned(), what: what.to_string() }
 }
 
 /// Reads a bucket that should have so many points.
-pub(super) fn read(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Content, Failure> {
+pub(crate) fn read(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Content, Error> {
     let (mut content, count) = (Content::default(), filled.points);
     each(folder, node, filled, has_heights, &mut |mut part| {
         if content.points.is_empty() {
@@ -223,8 +221,8 @@ fn each(
     node: Node,
     filled: Filled,
     has_heights: bool,
-    take: &mut dyn FnMut(Content) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    take: &mut dyn FnMut(Content) -> Result<(), Error>,
+) -> Result<(), Error> {
     let width = width(has_heights);
     let mut source = BufReader::with_capacity(1 << 16, open(folder, node, filled.points, has_heights)?);
     let mut hasher = XxHash3_64::new();
@@ -256,21 +254,20 @@ fn each(
 
 /// Cuts buckets again that have more points than a tile may have: the sample did not see them. Of points that are all equal the first
 /// is kept, with the height that a rule says; says how many were left out.
-pub(super) fn cut_again(
+pub(crate) fn cut_again(
     folder: &Path,
     cuts: &mut Cuts,
     buckets: &mut BTreeMap<Node, Filled>,
     (has_heights, rule): (bool, Duplicates),
     most: u64,
     buffer: usize,
-) -> Result<u64, Failure> {
+) -> Result<u64, Error> {
     let mut left_out = 0;
     while let Some((&node, &filled)) = buckets.iter().find(|&(_, filled)| filled.points > most) {
         let count = filled.points;
         let tiles = count.div_ceil((most * 4 / 5).max(1)) as usize;
         let sample = sample_of(folder, node, filled, has_heights)?;
-        let is_cut =
-            cuts.cut(node, &sample, tiles.max(2)).map_err(|error| Failure::points(folder, &error))?;
+        let is_cut = cuts.cut(node, &sample, tiles.max(2)).map_err(|error| Error::points(folder, error))?;
         let old = bucket(folder, node);
         buckets.remove(&node);
         if is_cut {
@@ -279,7 +276,7 @@ pub(super) fn cut_again(
                 parts.put(&part.points, &part.heights, &part.ids)
             })?;
             buckets.extend(parts.finish()?);
-            fs::remove_file(&old).map_err(|error| unwritten(&old, &error))?;
+            fs::remove_file(&old).map_err(|error| unwritten(&old, error))?;
         } else {
             let height = if has_heights {
                 height_of_all(folder, node, filled, rule)?.map(Several::height)
@@ -299,7 +296,7 @@ pub(super) fn cut_again(
                 file.read_to_end(&mut bytes)?;
                 Ok(XxHash3_64::oneshot(&bytes))
             };
-            let sum = shorten().map_err(|error| unwritten(&old, &error))?;
+            let sum = shorten().map_err(|error| unwritten(&old, error))?;
             buckets.insert(node, Filled { points: 1, sum });
             left_out += count - 1;
         }
@@ -313,7 +310,7 @@ fn height_of_all(
     node: Node,
     filled: Filled,
     rule: Duplicates,
-) -> Result<Option<Several>, Failure> {
+) -> Result<Option<Several>, Error> {
     let mut all: Option<Several> = None;
     each(folder, node, filled, true, &mut |part| {
         for height in part.heights {
@@ -328,7 +325,7 @@ fn height_of_all(
 }
 
 /// Some points of a bucket; two that differ among them, if there are any.
-fn sample_of(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Vec<[f64; 2]>, Failure> {
+fn sample_of(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Vec<[f64; 2]>, Error> {
     /// Enough to cut into a few tiles.
     const SOME: u64 = 1 << 14;
     let step = filled.points.div_ceil(SOME);

@@ -11,26 +11,24 @@ use delone_io::sync_folder;
 use serde_json::{Value, json};
 use twox_hash::XxHash3_64;
 
-use super::manifest::place;
-use super::own;
-use super::shards::wrong;
-use super::sums::Sums;
-use crate::files;
-use crate::message::Failure;
+use crate::error::Error;
+use crate::own;
+use crate::places::place;
+use crate::sums::Sums;
 
 /// The description of a node.
 #[derive(Clone, Debug)]
-pub(super) struct Done {
-    pub(super) node: Node,
+pub(crate) struct Done {
+    pub(crate) node: Node,
     /// Its distinct points and those that equal them, if it is a tile.
-    pub(super) vertices: u64,
-    pub(super) duplicates: u64,
+    pub(crate) vertices: u64,
+    pub(crate) duplicates: u64,
     /// Of its final triangles; of a node that is cut, of those of its seam.
-    pub(super) fingerprint: Fingerprint,
+    pub(crate) fingerprint: Fingerprint,
     /// The points of its border.
-    pub(super) border: u64,
+    pub(crate) border: u64,
     /// The hashes of its files.
-    pub(super) sums: Sums,
+    pub(crate) sums: Sums,
 }
 
 /// The key of the hash of the border itself, XXH3 of 64 bits as for other files.
@@ -40,10 +38,8 @@ fn path(folder: &Path, node: Node) -> PathBuf {
     place(folder, "border", node, "bin")
 }
 
-fn damaged(path: &Path, what: impl std::fmt::Display) -> Failure {
-    let help =
-        "remove that file to have the node made again, if its bucket or the borders of its parts are there";
-    Failure::new(format!("{}: {what}", path.display()), help)
+fn damaged(path: &Path, what: impl std::fmt::Display) -> Error {
+    Error::Border { path: path.to_owned(), what: what.to_string() }
 }
 
 impl Done {
@@ -51,7 +47,7 @@ impl Done {
     const LEAST: u64 = 24;
 
     /// As the manifest has it.
-    pub(super) fn describe(&self) -> Value {
+    pub(crate) fn describe(&self) -> Value {
         json!({
             "node": self.node.number(),
             "vertices": self.vertices,
@@ -63,7 +59,7 @@ impl Done {
         })
     }
 
-    pub(super) fn parse(value: &Value) -> Option<Self> {
+    pub(crate) fn parse(value: &Value) -> Option<Self> {
         let count = |name: &str| value[name].as_u64();
         let fingerprint: Fingerprint = value["fingerprint"].as_str()?.parse().ok()?;
         // Rows of a file have numbers of 32 bits.
@@ -80,7 +76,7 @@ impl Done {
     }
 
     /// Whether a tile has so many points, as its bucket had.
-    pub(super) fn check_points(&self, folder: &Path, count: u64) -> Result<(), Failure> {
+    pub(crate) fn check_points(&self, folder: &Path, count: u64) -> Result<(), Error> {
         if self.vertices.checked_add(self.duplicates) == Some(count) {
             return Ok(());
         }
@@ -92,24 +88,24 @@ impl Done {
     }
 
     /// Whether its files are as they were written, and all that it must have are among them.
-    pub(super) fn check_files(&self, folder: &Path, cuts: &Cuts) -> Result<(), Failure> {
+    pub(crate) fn check_files(&self, folder: &Path, cuts: &Cuts) -> Result<(), Error> {
         let kinds: &[&str] =
             if cuts.is_tile(self.node) { &["points", "ids", "triangles"] } else { &["seam"] };
         let files = kinds.iter().map(|kind| place(folder, kind, self.node, "npy"));
         if let Some(path) = files.into_iter().find(|path| !self.sums.has(path)) {
-            return Err(wrong(&path, "tiles.json has no hash of it"));
+            return Err(Error::changed(&path, "tiles.json has no hash of it"));
         }
         self.sums.check(folder)
     }
 
     /// Writes it with its border: the node is done then. Its files are on the disk before, and this one after.
-    pub(super) fn write(&self, folder: &Path, border: &Border) -> Result<(), Failure> {
-        let sync = || sync_folder(folder).map_err(|error| files::cannot_write(folder, error.into()));
+    pub(crate) fn write(&self, folder: &Path, border: &Border) -> Result<(), Error> {
+        let sync = || sync_folder(folder).map_err(|error| Error::write(folder, error));
         sync()?;
         let bytes = border.to_bytes();
         let mut head = self.describe();
         head[SUM] = json!(format!("{:016x}", XxHash3_64::oneshot(&bytes)));
-        files::write_own(&path(folder, self.node), |out| {
+        own::write(&path(folder, self.node), |out| {
             writeln!(out, "{head}")?;
             Ok(out.write_all(&bytes)?)
         })?;
@@ -117,14 +113,14 @@ impl Done {
     }
 
     /// Reads the description of a node, if it is done.
-    pub(super) fn find(folder: &Path, node: Node) -> Result<Option<Self>, Failure> {
+    pub(crate) fn find(folder: &Path, node: Node) -> Result<Option<Self>, Error> {
         let path = path(folder, node);
         let file = match own::open(&path) {
             Ok(file) => file,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Failure::file(&path, &error.into())),
+            Err(error) => return Err(Error::read(&path, error)),
         };
-        let failed = |error: std::io::Error| Failure::file(&path, &error.into());
+        let failed = |error: std::io::Error| Error::read(&path, error);
         let length = file.metadata().map_err(failed)?.len();
         let (done, _) = Self::head(&path, &mut BufReader::new(file))?;
         if done.node != node {
@@ -138,10 +134,10 @@ impl Done {
     }
 
     /// It, and the hash of its border.
-    fn head(path: &Path, source: &mut impl BufRead) -> Result<(Self, u64), Failure> {
+    fn head(path: &Path, source: &mut impl BufRead) -> Result<(Self, u64), Error> {
         let mut line = Vec::new();
         let read = source.take(1 << 12).read_until(b'\n', &mut line);
-        read.map_err(|error| Failure::file(path, &error.into()))?;
+        read.map_err(|error| Error::read(path, error))?;
         let value = serde_json::from_slice(&line).unwrap_or(Value::Null);
         let sum = value[SUM].as_str().and_then(|sum| u64::from_str_radix(sum, 16).ok());
         let head = Self::parse(&value).zip(sum);
@@ -150,9 +146,9 @@ impl Done {
 }
 
 /// The border of a node that is done.
-pub(super) fn border(folder: &Path, node: Node) -> Result<Border, Failure> {
+pub(crate) fn border(folder: &Path, node: Node) -> Result<Border, Error> {
     let path = path(folder, node);
-    let failed = |error: std::io::Error| Failure::file(&path, &error.into());
+    let failed = |error: std::io::Error| Error::read(&path, error);
     let mut source = BufReader::new(own::open(&path).map_err(failed)?);
     let (_, sum) = Done::head(&path, &mut source)?;
     let mut bytes = Vec::new();
@@ -164,7 +160,7 @@ pub(super) fn border(folder: &Path, node: Node) -> Result<Border, Failure> {
 }
 
 /// Removes all borders of a folder: nothing is done.
-pub(super) fn remove_all(folder: &Path) {
+pub(crate) fn remove_all(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if entry.file_name().to_string_lossy().starts_with("border-") {
             _ = fs::remove_file(entry.path());
@@ -173,6 +169,6 @@ pub(super) fn remove_all(folder: &Path) {
 }
 
 /// Forgets the border of a node: all is done.
-pub(super) fn forget(folder: &Path, node: Node) {
+pub(crate) fn forget(folder: &Path, node: Node) {
     _ = fs::remove_file(path(folder, node));
 }

@@ -5,35 +5,35 @@ use std::path::Path;
 use delone::tiles::{Cuts, Node, join};
 use delone_io::write_array;
 
-use super::budget::Budget;
-use super::manifest::place;
-use super::node::{self, Done};
-use super::sums::Sums;
-use crate::message::Failure;
-use crate::progress::Phase;
+use crate::budget::Budget;
+use crate::error::Error;
+use crate::node::{self, Done};
+use crate::places::place;
+use crate::sums::Sums;
+use crate::watch::Phase;
 
 /// Cuts that one join goes over, where memory allows: points along long cuts are then triangulated once in four levels.
 const LEVELS: u32 = 4;
 
 /// Joins that are going on.
-pub(super) struct Joins<'a> {
-    pub(super) folder: &'a Path,
-    pub(super) cuts: &'a Cuts,
-    pub(super) budget: &'a Budget,
+pub(crate) struct Joins<'a> {
+    pub(crate) folder: &'a Path,
+    pub(crate) cuts: &'a Cuts,
+    pub(crate) budget: &'a Budget,
     /// All points, for messages.
-    pub(super) count: u64,
-    pub(super) phase: Phase,
+    pub(crate) count: u64,
+    pub(crate) phase: Phase<'a>,
 }
 
 impl Joins<'_> {
     /// Finishes a node and all below it. Tiles are done.
-    pub(super) fn settle(&self, node: Node) -> Result<Done, Failure> {
+    pub(crate) fn settle(&self, node: Node) -> Result<Done, Error> {
         if let Some(done) = Done::find(self.folder, node)? {
             return Ok(done);
         }
         let Some(halves) = self.cuts.halves(node) else {
             let path = place(self.folder, "border", node, "bin");
-            return Err(Failure::new(format!("{} is missing", path.display()), "go on with --resume"));
+            return Err(Error::Missing { path });
         };
         let parts: Vec<Done> =
             self.parts(node, LEVELS)?.into_iter().map(|part| self.settle(part)).collect::<Result<_, _>>()?;
@@ -50,7 +50,7 @@ impl Joins<'_> {
     }
 
     /// Finishes a half whose parts are done.
-    fn settle_alone(&self, half: Node, parts: &[Done]) -> Result<Done, Failure> {
+    fn settle_alone(&self, half: Node, parts: &[Done]) -> Result<Done, Error> {
         match parts.iter().find(|part| part.node == half) {
             Some(done) => Ok(done.clone()),
             None => self.settle(half),
@@ -58,7 +58,7 @@ impl Joins<'_> {
     }
 
     /// The nodes below one that make it: those that are done, tiles, and those some levels below.
-    fn parts(&self, node: Node, levels: u32) -> Result<Vec<Node>, Failure> {
+    fn parts(&self, node: Node, levels: u32) -> Result<Vec<Node>, Error> {
         let mut parts = Vec::new();
         for half in self.cuts.halves(node).into_iter().flatten() {
             let is_whole = levels == 1 || self.cuts.halves(half).is_none();
@@ -71,13 +71,13 @@ impl Joins<'_> {
         Ok(parts)
     }
 
-    fn join(&self, node: Node, parts: &[Done]) -> Result<Done, Failure> {
+    fn join(&self, node: Node, parts: &[Done]) -> Result<Done, Error> {
         let borders =
             parts.iter().map(|part| node::border(self.folder, part.node)).collect::<Result<Vec<_>, _>>()?;
-        let seam = join(&borders, &self.cuts.region(node)).map_err(|error| {
-            let what =
-                format!("node {} cannot be joined of nodes {:?}: {error}", node.number(), numbers(parts));
-            Failure::new(what, "the files of the folder are not of one run: start again in another folder")
+        let seam = join(&borders, &self.cuts.region(node)).map_err(|error| Error::Join {
+            node: node.number(),
+            parts: numbers(parts),
+            error: Box::new(error),
         })?;
         drop(borders);
         let mut sums = Sums::default();
@@ -88,7 +88,7 @@ impl Joins<'_> {
         let border = seam.border.points.len() as u64;
         let done = Done { node, vertices: 0, duplicates: 0, fingerprint: seam.fingerprint, border, sums };
         done.write(self.folder, &seam.border)?;
-        self.phase.advance();
+        self.phase.advance()?;
         Ok(done)
     }
 }

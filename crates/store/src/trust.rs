@@ -8,14 +8,14 @@ use std::path::Path;
 
 use delone::tiles::Node;
 
-use super::manifest::Manifest;
-use super::node::{self, Done};
-use crate::message::Failure;
-use crate::progress::Phase;
+use crate::error::Error;
+use crate::manifest::Manifest;
+use crate::node::{self, Done};
+use crate::watch::{Phase, Watch};
 
 /// Checks the files of all nodes that are done.
-pub(super) fn check(folder: &Path, plan: &Manifest, quiet: bool) -> Result<(), Failure> {
-    let _phase = Phase::start(quiet, "checking what is done");
+pub(crate) fn check(folder: &Path, plan: &Manifest, watch: &dyn Watch) -> Result<(), Error> {
+    let _phase = Phase::start(watch, "checking what is done");
     if let Some(outcome) = &plan.outcome {
         let nodes = outcome.nodes.iter().filter_map(Done::parse);
         return nodes.into_iter().try_for_each(|done| done.check_files(folder, &plan.cuts));

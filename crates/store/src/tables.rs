@@ -1,4 +1,4 @@
-//! `--parquet`: the folder once more as tables, for programs that read Parquet.
+//! Tables: the folder once more as tables, for programs that read Parquet.
 //!
 //! Names count over all tiles here, so all files of a kind are one table: `read_parquet('tiles/triangles-*.parquet')`.
 //!
@@ -9,23 +9,24 @@ use std::path::Path;
 use delone::tiles::Node;
 use delone_io::{Column, write_columns};
 
-use super::manifest::{Manifest, Outcome, place};
-use super::node::Done;
-use super::shards::{self, wrong};
-use super::sums::{Sums, Written};
-use crate::message::Failure;
-use crate::progress::Phase;
+use crate::error::Error;
+use crate::manifest::{Manifest, Outcome};
+use crate::node::Done;
+use crate::places::place;
+use crate::shards;
+use crate::sums::{Sums, Written};
+use crate::watch::{Phase, Watch};
 
 /// Writes the tables of all nodes.
-pub(super) fn write(
+pub(crate) fn write(
     folder: &Path,
     plan: &Manifest,
     outcome: &Outcome,
-    quiet: bool,
-) -> Result<Written, Failure> {
+    watch: &dyn Watch,
+) -> Result<Written, Error> {
     let mut written = Written::new();
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
-    let phase = Phase::count(quiet, "writing tables", nodes.len() as u64);
+    let phase = Phase::count(watch, "writing tables", nodes.len() as u64);
     for node in nodes {
         let sums = written.entry(node).or_default();
         if plan.cuts.is_tile(node) {
@@ -34,17 +35,17 @@ pub(super) fn write(
         } else {
             triangles(folder, "seam", node, sums, |v| v)?;
         }
-        phase.advance();
+        phase.advance()?;
     }
     Ok(written)
 }
 
-fn points(folder: &Path, node: Node, sums: &mut Sums) -> Result<(), Failure> {
+fn points(folder: &Path, node: Node, sums: &mut Sums) -> Result<(), Error> {
     let cloud = shards::points(folder, node)?;
     let rows: Vec<i64> = shards::ids(folder, node)?.into_iter().map(|row| row as i64).collect();
     if rows.len() != cloud.xy.len() {
         let path = place(folder, "points", node, "npy");
-        return Err(wrong(&path, "it has not as many points as there are ids"));
+        return Err(Error::changed(&path, "it has not as many points as there are ids"));
     }
     let names: Vec<i64> = (0..cloud.xy.len()).map(|v| node.id(v as u32) as i64).collect();
     let [x, y] = [0, 1].map(|k| cloud.xy.iter().map(|p| p[k]).collect::<Vec<f64>>());
@@ -64,7 +65,7 @@ fn triangles(
     node: Node,
     sums: &mut Sums,
     name: impl Fn(u64) -> u64,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let triangles = shards::triangles(&place(folder, kind, node, "npy"))?;
     let corner = |k: usize| triangles.iter().map(|t| name(t[k]) as i64).collect::<Vec<i64>>();
     let [a, b, c] = [0, 1, 2].map(corner);

@@ -5,22 +5,20 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
+use std::path::Path;
 
 use delone::tiles::{Cut, Cuts, Fingerprint, Node};
 use delone_io::sync_folder;
 use serde_json::{Value, json};
 
-use super::buckets::Filled;
-use super::node::Done;
-use super::own;
-use super::sums::Written;
-use crate::files;
-use crate::message::Failure;
+use crate::buckets::Filled;
+use crate::error::Error;
+use crate::node::Done;
+use crate::own;
+use crate::sums::Written;
 
-/// Its name in the folder.
-pub(crate) const NAME: &str = "tiles.json";
+/// The name of the file in a folder of tiles that describes them.
+pub const NAME: &str = "tiles.json";
 
 /// The name of the format, with its version beside.
 const FORMAT: &str = "delone tiles";
@@ -30,37 +28,37 @@ const VERSION: u64 = 2;
 #[derive(Debug)]
 pub(crate) struct Manifest {
     /// The files, as they were when they were read, and how.
-    pub(super) input: Value,
+    pub(crate) input: Value,
     /// The number of points of all files.
-    pub(super) count: u64,
-    pub(super) has_heights: bool,
-    pub(super) cuts: Cuts,
+    pub(crate) count: u64,
+    pub(crate) has_heights: bool,
+    pub(crate) cuts: Cuts,
     /// The content of each tile's bucket, once all points are in theirs.
-    pub(super) buckets: Option<BTreeMap<Node, Filled>>,
+    pub(crate) buckets: Option<BTreeMap<Node, Filled>>,
     /// Points that were left out because they equal the only one of their tile.
-    pub(super) left_out: u64,
+    pub(crate) left_out: u64,
     /// The outcome, once all is done.
-    pub(super) outcome: Option<Outcome>,
+    pub(crate) outcome: Option<Outcome>,
 }
 
 /// The sums of all tiles and seams.
 #[derive(Debug)]
 pub(crate) struct Outcome {
-    pub(super) fingerprint: Fingerprint,
-    pub(super) vertices: u64,
-    pub(super) duplicates: u64,
-    pub(super) hull: u64,
+    pub(crate) fingerprint: Fingerprint,
+    pub(crate) vertices: u64,
+    pub(crate) duplicates: u64,
+    pub(crate) hull: u64,
     /// The record of each node.
-    pub(super) nodes: Vec<Value>,
+    pub(crate) nodes: Vec<Value>,
 }
 
 impl Outcome {
-    pub(super) fn triangles(&self) -> u64 {
+    pub(crate) fn triangles(&self) -> u64 {
         self.fingerprint.count()
     }
 
     /// Takes in the hashes of what was written when all was done.
-    pub(super) fn extend(&mut self, mut written: Written) {
+    pub(crate) fn extend(&mut self, mut written: Written) {
         for value in &mut self.nodes {
             let Some(mut done) = Done::parse(value) else { continue };
             done.sums.extend(written.remove(&done.node).unwrap_or_default());
@@ -90,30 +88,9 @@ impl Outcome {
     }
 }
 
-/// Where a folder's file of a kind is for a node.
-pub(super) fn place(folder: &Path, kind: &str, node: Node, extension: &str) -> PathBuf {
-    folder.join(format!("{kind}-{:05}.{extension}", node.number()))
-}
-
-/// Files as they are now: names, sizes and times.
-pub(super) fn describe(paths: &[PathBuf]) -> Result<Value, Failure> {
-    let of = |path: &PathBuf| {
-        let failed = |error: std::io::Error| Failure::file(path, &error.into());
-        let about = path.metadata().map_err(failed)?;
-        let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
-        let place = path.canonicalize().map_err(failed)?;
-        Ok(json!({
-            "file": place.to_string_lossy(),
-            "bytes": about.len(),
-            "modified": modified.map(|time| format!("{}.{:09}", time.as_secs(), time.subsec_nanos())),
-        }))
-    };
-    paths.iter().map(of).collect()
-}
-
 impl Manifest {
     /// Writes it, whole.
-    pub(super) fn write(&self, folder: &Path) -> Result<(), Failure> {
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), Error> {
         let stage = match (&self.buckets, &self.outcome) {
             (_, Some(_)) => "done",
             (Some(_), None) => "distributed",
@@ -149,35 +126,28 @@ impl Manifest {
         }
         let text = format!("{all:#}\n");
         // What it says is on the disk before it, and it is when this returns.
-        let sync = || sync_folder(folder).map_err(|error| files::cannot_write(folder, error.into()));
+        let sync = || sync_folder(folder).map_err(|error| Error::write(folder, error));
         sync()?;
-        files::write_own(&folder.join(NAME), |out| Ok(out.write_all(text.as_bytes())?))?;
+        own::write(&folder.join(NAME), |out| Ok(out.write_all(text.as_bytes())?))?;
         sync()
     }
 
     /// Reads that of a folder, if there is one.
-    pub(crate) fn read(folder: &Path) -> Result<Option<Self>, Failure> {
+    pub(crate) fn read(folder: &Path) -> Result<Option<Self>, Error> {
         let path = folder.join(NAME);
         let text = match own::open(&path).and_then(std::io::read_to_string) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Failure::file(&path, &error.into())),
+            Err(error) => return Err(Error::read(&path, error)),
         };
-        let wrong = |what: &str| {
-            let help = "start again in another folder; tiles.json is written by delone tiles alone";
-            Failure::new(format!("{}: {what}", path.display()), help)
-        };
+        let wrong = |what: &str| Error::Manifest { path: path.clone(), what: what.to_owned() };
         let all: Value = serde_json::from_str(&text).map_err(|_| wrong("it is not JSON"))?;
         if all["format"] != FORMAT {
             return Err(wrong("it does not describe tiles"));
         }
         match all["version"].as_u64() {
             Some(VERSION) => {}
-            Some(other) => {
-                let what =
-                    format!("{}: it is of version {other}, and this program knows {VERSION}", path.display());
-                return Err(Failure::new(what, "use the version of delone that began it, or start again"));
-            }
+            Some(found) => return Err(Error::Version { path, found, known: VERSION }),
             None => return Err(wrong("it has no version")),
         }
         Self::parse(&all)
@@ -246,19 +216,17 @@ impl Manifest {
 }
 
 /// That of a folder, and what came out; an error if it is not done.
-pub(super) fn finished(folder: &Path) -> Result<(Manifest, Outcome), Failure> {
+pub(crate) fn finished(folder: &Path) -> Result<(Manifest, Outcome), Error> {
     let mut plan = Manifest::read(folder)?.ok_or_else(|| no_tiles(folder))?;
     let Some(outcome) = plan.outcome.take() else {
-        let what = format!("{}: the tiles are not finished", folder.display());
-        return Err(Failure::new(what, "go on with delone tiles --resume"));
+        return Err(Error::Unfinished { folder: folder.to_owned() });
     };
     Ok((plan, outcome))
 }
 
 /// A folder without.
-pub(super) fn no_tiles(folder: &Path) -> Failure {
-    let what = format!("{} is a folder without {NAME}", folder.display());
-    Failure::new(what, "name a folder that delone tiles made, or a file")
+pub(crate) fn no_tiles(folder: &Path) -> Error {
+    Error::NoTiles { folder: folder.to_owned() }
 }
 
 /// Nodes by their numbers.

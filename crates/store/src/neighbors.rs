@@ -1,4 +1,4 @@
-//! `--neighbors`: what is across each edge of each triangle, in tiles, in seams and between them.
+//! Neighbors: what is across each edge of each triangle, in tiles, in seams and between them.
 //!
 //! Inside of a tile it is a row of the same file. What has no triangle of its tile across waits for the seams: no edge is between
 //! final triangles of two tiles, because these have no corner in common.
@@ -11,12 +11,13 @@ use delone::tiles::Node;
 use delone_io::write_array;
 use rayon::prelude::*;
 
-use super::manifest::{Manifest, Outcome, place};
-use super::node::Done;
-use super::shards::{self, wrong};
-use super::sums::Written;
-use crate::message::Failure;
-use crate::progress::Phase;
+use crate::error::Error;
+use crate::manifest::{Manifest, Outcome};
+use crate::node::Done;
+use crate::places::place;
+use crate::shards;
+use crate::sums::Written;
+use crate::watch::{Phase, Watch};
 
 /// Nothing is across: the outline, or in a tile what its file of other neighbors has.
 const NONE: u32 = u32::MAX;
@@ -32,14 +33,14 @@ struct Side {
 }
 
 /// Writes the neighbors of all nodes.
-pub(super) fn write(
+pub(crate) fn write(
     folder: &Path,
     plan: &Manifest,
     outcome: &Outcome,
-    quiet: bool,
-) -> Result<Written, Failure> {
+    watch: &dyn Watch,
+) -> Result<Written, Error> {
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
-    let phase = Phase::count(quiet, "finding neighbors", nodes.len() as u64);
+    let phase = Phase::count(watch, "finding neighbors", nodes.len() as u64);
     let (mut waiting, mut written) = (Vec::new(), Written::new());
     for done in &nodes {
         if plan.cuts.is_tile(done.node) {
@@ -47,7 +48,7 @@ pub(super) fn write(
         } else {
             in_seam(folder, done, &mut waiting)?;
         }
-        phase.advance();
+        phase.advance()?;
     }
     let across = pair(folder, waiting)?;
     let mut rest = &across[..];
@@ -82,18 +83,13 @@ pub(super) fn write(
 }
 
 /// The neighbors inside of a tile; what has none there waits.
-fn in_tile(
-    folder: &Path,
-    done: &Done,
-    waiting: &mut Vec<Side>,
-    written: &mut Written,
-) -> Result<(), Failure> {
+fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>, written: &mut Written) -> Result<(), Error> {
     let node = done.node;
     let path = place(folder, "triangles", node, "npy");
     let triangles = triangles(&path, done)?;
     let count = triangles.len();
     if triangles.as_flattened().iter().any(|&v| v >= done.vertices) {
-        return Err(wrong(&path, "a triangle has a corner that is no point"));
+        return Err(Error::changed(&path, "a triangle has a corner that is no point"));
     }
     // Both ends, the lesser first, and three times the row with the corner.
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * count);
@@ -116,7 +112,7 @@ fn in_tile(
                 triangle: node.id(slot / 3),
                 corner: u64::from(slot % 3),
             }),
-            _ => return Err(wrong(&path, "triangles overlap")),
+            _ => return Err(Error::changed(&path, "triangles overlap")),
         }
     }
     let sums = written.entry(node).or_default();
@@ -126,7 +122,7 @@ fn in_tile(
 }
 
 /// All edges of a seam wait for each other and for those of tiles.
-fn in_seam(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+fn in_seam(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Error> {
     let node = done.node;
     for (row, t) in triangles(&place(folder, "seam", node, "npy"), done)?.into_iter().enumerate() {
         let side = |k: usize| Side { ends: ends(t, k), triangle: node.id(row as u32), corner: k as u64 };
@@ -136,10 +132,10 @@ fn in_seam(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Fa
 }
 
 /// As many triangles as the node has.
-fn triangles(path: &Path, done: &Done) -> Result<Vec<[u64; 3]>, Failure> {
+fn triangles(path: &Path, done: &Done) -> Result<Vec<[u64; 3]>, Error> {
     let triangles = shards::triangles(path)?;
     if triangles.len() as u64 != done.fingerprint.count() {
-        return Err(wrong(path, "the triangles are not those that tiles.json knows"));
+        return Err(Error::changed(path, "the triangles are not those that tiles.json knows"));
     }
     Ok(triangles)
 }
@@ -151,7 +147,7 @@ fn ends(t: [u64; 3], corner: usize) -> [u64; 2] {
 }
 
 /// Triangle, corner and what is across, for all that found another one, by triangle.
-fn pair(folder: &Path, mut waiting: Vec<Side>) -> Result<Vec<[u64; 3]>, Failure> {
+fn pair(folder: &Path, mut waiting: Vec<Side>) -> Result<Vec<[u64; 3]>, Error> {
     waiting.par_sort_unstable_by_key(|side| side.ends);
     let mut across = Vec::new();
     for group in waiting.chunk_by(|one, other| one.ends == other.ends) {
@@ -161,7 +157,7 @@ fn pair(folder: &Path, mut waiting: Vec<Side>) -> Result<Vec<[u64; 3]>, Failure>
                 across.push([other.triangle, other.corner, one.triangle]);
             }
             [_] => {}
-            _ => return Err(wrong(folder, "triangles overlap")),
+            _ => return Err(Error::changed(folder, "triangles overlap")),
         }
     }
     across.par_sort_unstable();

@@ -9,36 +9,34 @@ use delone::tiles::{Cuts, Node, Tile};
 use delone_io::write_array;
 use rayon::ThreadPool;
 
-use super::buckets::{self, Content, Filled};
-use super::manifest::place;
-use super::node::Done;
-use super::sums::Sums;
-use crate::message::Failure;
-use crate::progress::Phase;
+use crate::buckets::{self, Content, Filled};
+use crate::error::Error;
+use crate::node::Done;
+use crate::places::place;
+use crate::sums::Sums;
+use crate::watch::{Phase, Watch};
 
 /// Triangulates the tiles that are not done, so many at once, each on its share of the threads.
-pub(super) fn all(
+pub(crate) fn all(
     folder: &Path,
     cuts: &Cuts,
     open: &[(Node, Filled)],
     (has_heights, rule): (bool, Duplicates),
     workers: usize,
-    quiet: bool,
-) -> Result<(), Failure> {
-    let phase = Phase::count(quiet, "triangulating tiles", open.len() as u64);
+    watch: &dyn Watch,
+) -> Result<(), Error> {
+    let phase = Phase::count(watch, "triangulating tiles", open.len() as u64);
     let (next, stop, failure) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
     let work = || {
         while let Some(&(node, filled)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            match one(folder, cuts, (node, filled), (has_heights, rule)) {
-                Ok(()) => phase.advance(),
-                Err(error) => {
-                    stop.store(true, Ordering::Relaxed);
-                    if let Ok(mut first) = failure.lock() {
-                        first.get_or_insert(error);
-                    }
+            let done = one(folder, cuts, (node, filled), (has_heights, rule)).and_then(|()| phase.advance());
+            if let Err(error) = done {
+                stop.store(true, Ordering::Relaxed);
+                if let Ok(mut first) = failure.lock() {
+                    first.get_or_insert(error);
                 }
             }
         }
@@ -71,10 +69,10 @@ fn one(
     cuts: &Cuts,
     (node, filled): (Node, Filled),
     (has_heights, rule): (bool, Duplicates),
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let Content { points, mut heights, ids } = buckets::read(folder, node, filled, has_heights)?;
     let bucket = buckets::bucket(folder, node);
-    let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
+    let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Error::points(&bucket, error))?;
     drop(points);
     if has_heights {
         let pairs = tile.duplicates().iter().map(|pair| (pair.point, pair.vertex.index()));

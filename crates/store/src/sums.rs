@@ -16,20 +16,18 @@ use delone_io::Output;
 use serde_json::{Map, Value};
 use twox_hash::XxHash3_64;
 
-use super::own;
-use super::shards::wrong;
-use crate::files;
-use crate::message::Failure;
+use crate::error::Error;
+use crate::own;
 
 /// The hashes of files by their names.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Sums(BTreeMap<String, u64>);
+pub(crate) struct Sums(BTreeMap<String, u64>);
 
 /// The hashes of what was written for each node.
-pub(super) type Written = BTreeMap<Node, Sums>;
+pub(crate) type Written = BTreeMap<Node, Sums>;
 
 /// A file that is being written, and the hash of it so far.
-pub(super) struct Summed<'a> {
+pub(crate) struct Summed<'a> {
     out: &'a mut Output,
     hasher: XxHash3_64,
 }
@@ -52,12 +50,12 @@ fn name(path: &Path) -> String {
 
 impl Sums {
     /// Writes a file whole, and keeps its hash.
-    pub(super) fn write(
+    pub(crate) fn write(
         &mut self,
         path: &Path,
         content: impl FnOnce(&mut Summed) -> Result<(), delone_io::Error>,
-    ) -> Result<(), Failure> {
-        let sum = files::write_own(path, |out| {
+    ) -> Result<(), Error> {
+        let sum = own::write(path, |out| {
             let mut summed = Summed { out, hasher: XxHash3_64::new() };
             content(&mut summed)?;
             Ok(summed.hasher.finish())
@@ -67,12 +65,12 @@ impl Sums {
     }
 
     /// As the manifest has them.
-    pub(super) fn describe(&self) -> Value {
+    pub(crate) fn describe(&self) -> Value {
         let text = |(name, sum): (&String, &u64)| (name.clone(), Value::from(format!("{sum:016x}")));
         Value::Object(self.0.iter().map(text).collect::<Map<_, _>>())
     }
 
-    pub(super) fn parse(value: &Value) -> Option<Self> {
+    pub(crate) fn parse(value: &Value) -> Option<Self> {
         let sum = |(name, sum): (&String, &Value)| {
             // Nothing that leads out of the folder.
             let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
@@ -84,35 +82,36 @@ impl Sums {
     }
 
     /// Takes in what was written later.
-    pub(super) fn extend(&mut self, more: Self) {
+    pub(crate) fn extend(&mut self, more: Self) {
         self.0.extend(more.0);
     }
 
     /// Whether a file is among them.
-    pub(super) fn has(&self, path: &Path) -> bool {
+    pub(crate) fn has(&self, path: &Path) -> bool {
         self.0.contains_key(&name(path))
     }
 
     /// Whether all of them are as they were written.
-    pub(super) fn check(&self, folder: &Path) -> Result<(), Failure> {
+    pub(crate) fn check(&self, folder: &Path) -> Result<(), Error> {
         self.0.iter().try_for_each(|(name, &sum)| check(&folder.join(name), sum))
     }
 
     /// Whether one of them is as it was written.
-    pub(super) fn check_file(&self, path: &Path) -> Result<(), Failure> {
-        let sum = self.0.get(&name(path)).ok_or_else(|| wrong(path, "tiles.json has no hash of it"))?;
+    pub(crate) fn check_file(&self, path: &Path) -> Result<(), Error> {
+        let sum =
+            self.0.get(&name(path)).ok_or_else(|| Error::changed(path, "tiles.json has no hash of it"))?;
         check(path, *sum)
     }
 }
 
-fn check(path: &Path, expected: u64) -> Result<(), Failure> {
-    let found = of_file(path).map_err(|error| wrong(path, error))?;
+fn check(path: &Path, expected: u64) -> Result<(), Error> {
+    let found = of_file(path).map_err(|error| Error::changed(path, error))?;
     if found == expected {
         return Ok(());
     }
     let what =
         format!("it is not what was written: its hash is {found:016x}, and {expected:016x} was written");
-    Err(wrong(path, what))
+    Err(Error::changed(path, what))
 }
 
 fn of_file(path: &Path) -> io::Result<u64> {
@@ -130,9 +129,9 @@ fn of_file(path: &Path) -> io::Result<u64> {
 
 /// Whether all files of a folder that are named as shards are known: a run that was stopped while it wrote neighbors or tables leaves
 /// some that nobody vouches for.
-pub(super) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Failure> {
+pub(crate) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Error> {
     const KINDS: [&str; 6] = ["points-", "ids-", "triangles-", "seam-", "neighbors-", "across-"];
-    let entries = fs::read_dir(folder).map_err(|error| wrong(folder, error))?;
+    let entries = fs::read_dir(folder).map_err(|error| Error::changed(folder, error))?;
     let mut names: Vec<String> =
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort_unstable();
@@ -143,11 +142,7 @@ pub(super) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Failure>
     };
     let is_known = |name: &str| known.iter().any(|sums| sums.0.contains_key(name));
     match names.into_iter().find(|name| is_shard(name) && !is_known(name)) {
-        Some(name) => {
-            let what = format!("{}: tiles.json does not know it", folder.join(&name).display());
-            let help = "if delone tiles was stopped while it wrote neighbors or tables, go on with --resume; or remove it";
-            Err(Failure::new(what, help))
-        }
+        Some(name) => Err(Error::Unknown { path: folder.join(&name) }),
         None => Ok(()),
     }
 }

@@ -5,22 +5,40 @@ use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
+use delone_io::Output;
+
+use crate::error::Error;
+
 #[cfg(unix)]
 use rustix::fs::OFlags;
 
 /// Opens a file to read.
-pub(super) fn open(path: &Path) -> io::Result<File> {
+pub(crate) fn open(path: &Path) -> io::Result<File> {
     plain(OpenOptions::new().read(true), path, 0)
 }
 
 /// Opens a file to write at its end; it is made if there is none.
-pub(super) fn append(path: &Path) -> io::Result<File> {
+pub(crate) fn append(path: &Path) -> io::Result<File> {
     plain(OpenOptions::new().append(true).create(true), path, NO_LINK)
 }
 
 /// Opens a file that is there to change it.
-pub(super) fn change(path: &Path) -> io::Result<File> {
+pub(crate) fn change(path: &Path) -> io::Result<File> {
     plain(OpenOptions::new().read(true).write(true), path, NO_LINK)
+}
+
+/// Writes a file whole, which has its name at once.
+pub(crate) fn write<T>(
+    path: &Path,
+    content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
+) -> Result<T, Error> {
+    let attempt = || {
+        let mut output = Output::create_own(path)?;
+        let outcome = content(&mut output)?;
+        output.commit()?;
+        Ok(outcome)
+    };
+    attempt().map_err(|error: delone_io::Error| Error::write(path, error))
 }
 
 #[cfg(unix)]
