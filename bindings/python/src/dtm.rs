@@ -2,14 +2,15 @@
 
 use std::io::{Cursor, ErrorKind};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use delone::Bounds;
 use delone::surface::Border;
-use delone_io::{Cloud, Compression, Crs, Format, Graph, ReadOptions, read_graph};
+use delone_io::{Cloud, Compression, Crs, Format, Graph, ReadOptions, TemporaryFolder, read_graph};
+use delone_store::Build;
 use delone_terrain::{
-    Cells, Clip, Error, Files, Lines, Method, Options, Product, Remark, Terrain, read_clip, read_lines,
-    read_place,
+    Cells, Clip, Error, Files, Lines, Method, Options, Product, Remark, Terrain, Tiled, read_clip,
+    read_lines, read_place,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyPermissionError, PyRuntimeError, PyValueError};
@@ -18,6 +19,7 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::{LONG, Wanted, while_wanted};
 use crate::memory::{TRIANGULATION, room};
+use crate::store::{self, Waiting};
 use crate::terrain::rule_of;
 use crate::triangulation::coordinates;
 
@@ -46,6 +48,7 @@ pub struct Wishes {
     compress: String,
     interval: Option<f64>,
     epsg: Option<u32>,
+    memory: Option<u64>,
 }
 
 /// Heights, unless they are in files; the corner of the first cell and the steps; remarks.
@@ -93,19 +96,20 @@ fn made(given: Option<Cloud>, paths: Vec<PathBuf>, wishes: &Wishes, wanted: &Wan
         .anywhere(wishes.max_edge.is_some_and(|edge| edge.1));
     let duplicates = rule_of(&wishes.duplicates)?;
     let options = Options::new().method(method).duplicates(duplicates).border(border);
-    let mut cloud = match given {
-        Some(cloud) => cloud,
-        None => read(paths, wishes).map_err(error_of)?,
-    };
-    remarks.append(&mut cloud.losses);
-    if let Some(number) = wishes.epsg {
-        cloud.crs = Some(Crs::of_epsg(number));
-    }
     let (cells, like) = cells(wishes).map_err(error_of)?;
-    let lines = lines(wishes, &mut remarks).map_err(error_of)?;
-    let crs = cloud.crs.clone().or(like);
-    let mut terrain = Terrain::new(&cloud, lines, &cells, &options).map_err(error_of)?.with_crs(crs);
-    drop(cloud);
+    // The tiles of a model go after it.
+    let (_folder, terrain) = if let Some(memory) = wishes.memory {
+        let (folder, terrain) = tiled(paths, wishes, memory, (&cells, &options), wanted, &mut remarks)?;
+        (Some(folder), terrain)
+    } else {
+        let cloud = match given {
+            Some(cloud) => cloud,
+            None => files(paths, wishes).read().map_err(error_of)?,
+        };
+        (None, in_memory(cloud, wishes, &cells, &options, &mut remarks).map_err(error_of)?)
+    };
+    let crs = terrain.crs().cloned().or(like);
+    let mut terrain = terrain.with_crs(crs);
     remarks.extend(terrain.remarks().iter().filter(|remark| remark.is_warning()).map(Remark::to_string));
     if let Some(clip) = clip(wishes, &mut remarks).map_err(error_of)? {
         terrain = terrain.clipped(clip).map_err(error_of)?;
@@ -121,10 +125,52 @@ fn made(given: Option<Cloud>, paths: Vec<PathBuf>, wishes: &Wishes, wanted: &Wan
     Ok(Model { values, columns, rows, corner, step, remarks })
 }
 
-fn read(paths: Vec<PathBuf>, wishes: &Wishes) -> Result<Cloud, Error> {
+fn in_memory(
+    mut cloud: Cloud,
+    wishes: &Wishes,
+    cells: &Cells,
+    options: &Options,
+    remarks: &mut Vec<String>,
+) -> Result<Terrain, Error> {
+    remarks.append(&mut cloud.losses);
+    if let Some(number) = wishes.epsg {
+        cloud.crs = Some(Crs::of_epsg(number));
+    }
+    Terrain::new(&cloud, lines(wishes, remarks)?, cells, options)
+}
+
+/// A model of tiles on disk, in a folder that goes when it is dropped.
+fn tiled(
+    paths: Vec<PathBuf>,
+    wishes: &Wishes,
+    memory: u64,
+    (cells, options): (&Cells, &Options),
+    wanted: &Wanted,
+    remarks: &mut Vec<String>,
+) -> PyResult<(TemporaryFolder, Terrain)> {
+    let beside = wishes.output.first().and_then(|path| path.parent()).map(Path::to_owned);
+    let beside = beside.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(std::env::temp_dir);
+    let failed = |error: std::io::Error| error_of(Error::File(error.into()).at(&beside));
+    let folder = TemporaryFolder::create(&beside).map_err(failed)?;
+    let watch = Waiting::new(wanted);
+    let files = files(paths, wishes);
+    let work = || -> Result<(Terrain, Option<Crs>), Error> {
+        let points = delone_store::Files::new(&files.paths)?.options(files.resolved());
+        let build = Build::new().memory(memory).heights(true).duplicates(options.duplicates);
+        let (store, about) = build.run(&points, &folder.path().join("tiles"), &watch)?;
+        let tiles = Tiled::new(store, memory, options, &watch)?;
+        Ok((Terrain::of_tiles(tiles, cells)?, about.crs))
+    };
+    let (terrain, crs) = work().map_err(error_of)?;
+    remarks.append(&mut watch.losses());
+    let terrain = terrain.with_crs(wishes.epsg.map(Crs::of_epsg).or(crs));
+    Ok((folder, terrain))
+}
+
+fn files(paths: Vec<PathBuf>, wishes: &Wishes) -> Files {
     let mut files = Files::new(paths).classes(wishes.classes.clone()).all_classes(wishes.all_classes);
     files.options.columns.clone_from(&wishes.columns);
-    files.read()
+    files
 }
 
 /// The cells, and the system of the raster that they are those of.
@@ -181,7 +227,7 @@ fn values(terrain: &Terrain, wanted: &Wanted) -> PyResult<Vec<f64>> {
     let cells = grid.columns().saturating_mul(grid.rows());
     room(cells.saturating_mul(16), "a raster of so many cells")?;
     let mut values = Vec::with_capacity(cells);
-    for band in terrain.bands() {
+    for band in terrain.bands().map_err(error_of)? {
         values.extend(terrain.rows(band).map_err(error_of)?);
         if !wanted.is() {
             return Err(error_of(Error::Stopped));
@@ -220,6 +266,7 @@ fn error_of(error: Error) -> PyErr {
             ErrorKind::PermissionDenied => PyPermissionError::new_err(words),
             _ => PyOSError::new_err(words),
         },
+        Error::Store(error) => store::error_of(error),
         Error::Stopped => PyRuntimeError::new_err(words),
         _ => PyValueError::new_err(words),
     }

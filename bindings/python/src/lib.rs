@@ -28,6 +28,7 @@ mod shared;
 mod simplices;
 mod sizes;
 mod state;
+mod store;
 mod surface;
 mod terrain;
 mod tiles;
@@ -48,6 +49,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<orders::Orders>()?;
     m.add_class::<neighbors::Neighbors>()?;
     m.add_class::<tiles::PyCuts>()?;
+    m.add_class::<store::PyStore>()?;
     m.add_class::<tiles::PyBorder>()?;
     m.add_class::<tiles::PyFingerprint>()?;
     m.add_function(wrap_pyfunction!(tiles::triangulate_tile, m)?)?;

@@ -18,11 +18,11 @@ use crate::triangulation::coordinates;
 type Table<'py, T> = Bound<'py, PyArray2<T>>;
 type List<'py, T> = Bound<'py, PyArray1<T>>;
 /// The least and the greatest corner of a box.
-type Sides = [[f64; 2]; 2];
+pub type Sides = [[f64; 2]; 2];
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", name = "Cuts", frozen)]
-pub struct PyCuts(Arc<Cuts>);
+pub struct PyCuts(pub Arc<Cuts>);
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", name = "Border", frozen)]
@@ -31,14 +31,14 @@ pub struct PyBorder(Border);
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", name = "Fingerprint", frozen, eq, hash)]
 #[derive(Clone, PartialEq, Eq, Hash)]
-pub struct PyFingerprint(Fingerprint);
+pub struct PyFingerprint(pub Fingerprint);
 
-fn region([low, high]: Sides) -> Region {
+pub fn region([low, high]: Sides) -> Region {
     Region { low, high }
 }
 
 /// A node that is one.
-fn node(number: u32) -> PyResult<Node> {
+pub fn node(number: u32) -> PyResult<Node> {
     Node::new(number).ok_or_else(|| PyValueError::new_err("nodes are numbered from 1, the root"))
 }
 

@@ -1,6 +1,7 @@
 """The Rust half. Arrays of points are C-contiguous float64; see `delone` for what users call."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from ._dtm import Wanted as DtmWanted
 from ._mesh import Wishes
+from ._store import Plan
 
 __all__ = [
     "MERGE_AUTO",
@@ -21,6 +23,7 @@ __all__ = [
     "Neighbors",
     "Orders",
     "Regular",
+    "Store",
     "Triangulation",
     "after_fork",
     "clipped_cells",
@@ -298,6 +301,26 @@ def dtm(
     points: tuple[NDArray[np.float64], NDArray[np.float64]] | None, paths: list[str], wishes: DtmWanted
 ) -> tuple[NDArray[np.float64] | None, list[float], list[float], list[str]]: ...
 def proximity_graph(points: NDArray[np.float64], kind: str, parameter: float) -> NDArray[np.int64]: ...
+
+@final
+class Store:
+    @staticmethod
+    def build(plan: Plan) -> tuple[Store, list[str]]: ...
+    @staticmethod
+    def open(folder: str) -> Store: ...
+    @property
+    def folder(self) -> Path: ...
+    @property
+    def heights(self) -> bool: ...
+    def counts(self) -> list[int]: ...
+    def fingerprint(self) -> Fingerprint: ...
+    def cuts(self) -> Cuts: ...
+    def points(self, tile: int) -> NDArray[np.float64]: ...
+    def triangles(self, tile: int) -> NDArray[np.int64]: ...
+    def verify(self) -> None: ...
+    def window(self, sides: list[list[float]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
+    def locate(self, places: NDArray[np.float64]) -> NDArray[np.uint64]: ...
+    def overview(self, count: int) -> NDArray[np.float64]: ...
 
 @final
 class Cuts:

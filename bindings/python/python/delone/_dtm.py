@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._geometries import as_mapping, column_of
 from ._points import as_choice, as_flag, as_index, as_numbers, as_points
+from ._store import as_bytes
 from ._terrain import Rule, Transform, as_heights, as_longest
 
 Path = str | os.PathLike[str]
@@ -46,6 +47,7 @@ class Wanted(TypedDict):
     compress: str
     interval: float | None
     epsg: int | None
+    memory: int | None
 
 
 @overload
@@ -68,6 +70,7 @@ def dtm(
     all_classes: bool = False,
     columns: Sequence[str] = (),
     epsg: int | None = None,
+    memory: int | str | None = None,
     output: None = None,
 ) -> tuple[NDArray[np.float64], Transform]: ...
 @overload
@@ -90,6 +93,7 @@ def dtm(
     all_classes: bool = False,
     columns: Sequence[str] = (),
     epsg: int | None = None,
+    memory: int | str | None = None,
     output: Path | Sequence[Path],
     nodata: float | None = None,
     compress: Literal["deflate", "lzw", "none"] = "deflate",
@@ -114,6 +118,7 @@ def dtm(
     all_classes: bool = False,
     columns: Sequence[str] = (),
     epsg: int | None = None,
+    memory: int | str | None = None,
     output: Path | Sequence[Path] | None = None,
     nodata: float | None = None,
     compress: Literal["deflate", "lzw", "none"] = "deflate",
@@ -156,6 +161,9 @@ def dtm(
         The columns of text that are x, y and z.
     epsg : int, optional
         The system of the coordinates by its number, which files say.
+    memory : int or text, optional
+        The bytes that may be taken, as in "500M" or "4G": work is done in tiles on disk, beside the output. Heights are the same,
+        bit for bit. For files without breaklines and level polygons, and for the methods without gradients.
     output : path or paths, optional
         Files by their extensions: rasters (tif, asc, npy), hillshades (png) and contours (geojson, fgb, gpkg). All of them are
         written, or none.
@@ -204,7 +212,10 @@ def dtm(
         "compress": as_choice(compress, ("deflate", "lzw", "none"), "compress"),
         "interval": None if interval is None else float(interval),
         "epsg": None if epsg is None else as_index(epsg, "epsg"),
+        "memory": None if memory is None else as_bytes(memory),
     }
+    if memory is not None and (not _is_path(points) or wanted["breaklines"] or wanted["flat"]):
+        raise ValueError("memory is for points of files, without breaklines and level polygons")
     if _is_path(points):
         if z is not None:
             raise ValueError("the heights of files are in them: leave z out")

@@ -8,6 +8,11 @@ Cut the plane into regions, triangulate the points of each region by themselves,
     seam = tiles.join([tile.border, ...], cuts.region(1))
 
 All of it pickles, and runs in Rust without Python's lock. `delone.dask` and `delone.spark` do it on clusters.
+
+From files to a folder of files, as the program does it, and resumable: `build`, and `open` for what is there.
+
+    store = tiles.build("survey.laz", "tiles", memory="4G", heights=True)
+    points, triangles = store.window((500, 900, 600, 1000))
 """
 
 from __future__ import annotations
@@ -22,8 +27,25 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._delone import Border, Fingerprint
 from ._points import as_index, as_numbers, as_points
+from ._store import Store, Summary, build
+from ._store import open_folder as open
 
-__all__ = ["PLANE", "Border", "Cuts", "Fingerprint", "Region", "Seam", "Tile", "fingerprint", "join", "triangulate"]
+__all__ = [
+    "PLANE",
+    "Border",
+    "Cuts",
+    "Fingerprint",
+    "Region",
+    "Seam",
+    "Store",
+    "Summary",
+    "Tile",
+    "build",
+    "fingerprint",
+    "join",
+    "open",
+    "triangulate",
+]
 
 Region = tuple[tuple[float, float], tuple[float, float]]
 """The least corner of a box, inside, and the greatest, outside. They may be infinite."""
