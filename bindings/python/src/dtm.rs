@@ -10,7 +10,7 @@ use delone_io::{Cloud, Compression, Crs, Format, Graph, ReadOptions, TemporaryFo
 use delone_store::Build;
 use delone_terrain::{
     Cells, Clip, Error, Files, Lines, Method, Options, Product, Remark, Terrain, Tiled, read_clip,
-    read_lines, read_place,
+    read_lines, read_place, read_polygons,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyPermissionError, PyRuntimeError, PyValueError};
@@ -186,12 +186,17 @@ fn cells(wishes: &Wishes) -> Result<(Cells, Option<Crs>), Error> {
     }
 }
 
-fn graph((is_text, shapes): &Shapes, remarks: &mut Vec<String>) -> Result<Graph, Error> {
+/// Lines and polygons, by the function that reads files.
+fn graph(
+    (is_text, shapes): &Shapes,
+    read: fn(&Path) -> Result<Graph, Error>,
+    remarks: &mut Vec<String>,
+) -> Result<Graph, Error> {
     if *is_text {
         let text = Box::new(Cursor::new(shapes.clone()));
         return Ok(read_graph(text, Format::GeoJson, &ReadOptions::default(), None)?);
     }
-    let mut graph = read_lines(shapes.as_ref())?;
+    let mut graph = read(shapes.as_ref())?;
     remarks.extend(graph.cloud.losses.drain(..).map(|loss| format!("{shapes}: {loss}")));
     Ok(graph)
 }
@@ -200,10 +205,11 @@ fn lines(wishes: &Wishes, remarks: &mut Vec<String>) -> Result<Lines, Error> {
     let mut lines = Lines::new();
     let at = |shapes: &Shapes, error: Error| if shapes.0 { error } else { error.at(&shapes.1) };
     for shapes in &wishes.breaklines {
-        lines.breaklines(&graph(shapes, remarks)?).map_err(|error| at(shapes, error))?;
+        lines.breaklines(&graph(shapes, read_lines, remarks)?).map_err(|error| at(shapes, error))?;
     }
     for shapes in &wishes.flat {
-        let found = lines.level(&graph(shapes, remarks)?).map_err(|error| at(shapes, error))?;
+        let found =
+            lines.level(&graph(shapes, read_polygons, remarks)?).map_err(|error| at(shapes, error))?;
         remarks.extend(found.iter().map(Remark::to_string));
     }
     Ok(lines)
@@ -213,7 +219,11 @@ fn lines(wishes: &Wishes, remarks: &mut Vec<String>) -> Result<Lines, Error> {
 fn clip(wishes: &Wishes, remarks: &mut Vec<String>) -> Result<Option<Clip>, Error> {
     let mut all: Option<Clip> = None;
     for shapes in &wishes.clip {
-        let one = if shapes.0 { Clip::of(&graph(shapes, remarks)?)? } else { read_clip(shapes.1.as_ref())? };
+        let one = if shapes.0 {
+            Clip::of(&graph(shapes, read_polygons, remarks)?)?
+        } else {
+            read_clip(shapes.1.as_ref())?
+        };
         all = Some(match all {
             Some(clip) => clip.with(one)?,
             None => one,

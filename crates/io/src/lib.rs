@@ -64,7 +64,7 @@ pub use patches::{Patches, write_patches};
 pub use paths::{beside, open, open_as, side};
 pub use raster::{
     ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
-    ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, read_raster,
+    ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, heed_sides, read_raster,
     read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};

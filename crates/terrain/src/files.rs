@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 use delone_io::{
-    Cloud, Crs, Format, Graph, ReadOptions, beside, holds_lines, open, read_graph, read_points_beside,
-    read_raster_place,
+    Cloud, Crs, Format, Graph, ReadOptions, beside, heed_sides, holds_lines, open, read_graph,
+    read_points_beside, read_raster_place,
 };
 
 use crate::clip::Clip;
@@ -75,7 +75,9 @@ impl Files {
         for path in &self.paths {
             let failed = |error| Error::File(error).at(path);
             let (source, format) = open(path).map_err(failed)?;
-            let cloud = read_points_beside(source, format, &options, &mut beside(path)).map_err(failed)?;
+            let mut cloud =
+                read_points_beside(source, format, &options, &mut beside(path)).map_err(failed)?;
+            cloud.losses.extend(heed_sides(&mut cloud.crs, path));
             all.join(cloud).map_err(failed)?;
         }
         Ok(all)
@@ -87,8 +89,20 @@ impl Files {
 /// # Errors
 /// [`Error::In`] with the file.
 pub fn read_lines(path: &Path) -> Result<Graph, Error> {
+    read(path, false)
+}
+
+/// Reads polygons of a file, which closed lines of drawings are too.
+///
+/// # Errors
+/// [`Error::In`] with the file.
+pub fn read_polygons(path: &Path) -> Result<Graph, Error> {
+    read(path, true)
+}
+
+fn read(path: &Path, closed: bool) -> Result<Graph, Error> {
     let failed = |error| Error::File(error).at(path);
-    let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+    let options = ReadOptions { dimension: 2, closed, ..ReadOptions::default() };
     let (source, format) = open(path).map_err(failed)?;
     read_graph(source, format, &options, Some(&mut beside(path))).map_err(failed)
 }
@@ -99,7 +113,7 @@ pub fn read_lines(path: &Path) -> Result<Graph, Error> {
 /// [`Error::In`] with the file; [`Error::NoPolygon`] for lines alone.
 pub fn read_clip(path: &Path) -> Result<Clip, Error> {
     let failed = |error| Error::File(error).at(path);
-    let graph = read_lines(path)?;
+    let graph = read_polygons(path)?;
     if graph.rings.is_empty() {
         let (source, format) = open(path).map_err(failed)?;
         if format != Format::Poly && holds_lines(source, format) {
@@ -116,5 +130,7 @@ pub fn read_clip(path: &Path) -> Result<Clip, Error> {
 pub fn read_place(path: &Path) -> Result<(Grid, Option<Crs>), Error> {
     let failed = |error| Error::File(error).at(path);
     let (source, format) = open(path).map_err(failed)?;
-    read_raster_place(source, format).map_err(failed)
+    let (grid, mut crs) = read_raster_place(source, format).map_err(failed)?;
+    heed_sides(&mut crs, path);
+    Ok((grid, crs))
 }

@@ -56,7 +56,7 @@ pub mod values;
 pub use cells::{Cells, bounds};
 pub use clip::Clip;
 pub use error::Error;
-pub use files::{Files, GROUND, read_clip, read_lines, read_place};
+pub use files::{Files, GROUND, read_clip, read_lines, read_place, read_polygons};
 pub use lines::Lines;
 pub use options::{Method, Options};
 pub use remark::Remark;

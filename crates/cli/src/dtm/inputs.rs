@@ -63,7 +63,7 @@ pub(super) fn lines(args: &DtmArgs, quiet: bool) -> Result<Lines, Failure> {
         lines.breaklines(&graph).map_err(|error| failure(path, error))?;
     }
     for path in &args.flat {
-        let graph = files::graph_beside(path, quiet)?;
+        let graph = files::polygons_beside(path, quiet)?;
         let remarks = lines.level(&graph).map_err(|error| failure_of_level(path, error))?;
         remarks.iter().for_each(|remark| tell(remark, Some(path), quiet));
     }
@@ -73,7 +73,7 @@ pub(super) fn lines(args: &DtmArgs, quiet: bool) -> Result<Lines, Failure> {
 /// Reads polygons to clip to; the points of a file without lines are one ring.
 pub(super) fn clip(path: &Path, quiet: bool) -> Result<Clip, Failure> {
     let format = files::format_beside(path)?;
-    let graph = files::graph_beside(path, quiet)?;
+    let graph = files::polygons_beside(path, quiet)?;
     // Points of Triangle's graphs are a ring, whatever segments there are.
     if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
         return Err(failure(path, Error::NoPolygon));

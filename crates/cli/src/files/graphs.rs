@@ -21,6 +21,11 @@ pub(crate) fn graph_beside(path: &Path, quiet: bool) -> Result<Graph, Failure> {
     Ok(read_graph(&InputArgs::of(&[path.to_owned()]), None, Purpose::Lines, Role::Beside, quiet)?.0)
 }
 
+/// Reads polygons beside the input of a command, which closed lines of drawings are too.
+pub(crate) fn polygons_beside(path: &Path, quiet: bool) -> Result<Graph, Failure> {
+    Ok(read_graph(&InputArgs::of(&[path.to_owned()]), None, Purpose::Polygons, Role::Beside, quiet)?.0)
+}
+
 /// Reads the polygons of a command, which closed lines of drawings are too.
 ///
 /// # Errors

@@ -15,7 +15,9 @@ use delone_io::{Beside, Cloud, Contents, Crs, Direction, Format, Raster, ReadOpt
 
 pub(crate) use apart::{beside, keep_apart, keep_names_apart};
 pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
-pub(crate) use graphs::{graph, graph_beside, graph_with_points, holds_lines, polygons, rings};
+pub(crate) use graphs::{
+    graph, graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings,
+};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
 pub(crate) use write::{

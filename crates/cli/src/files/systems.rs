@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use delone_io::{Crs, Format, Said, besides_of_raster, crs_of_side};
+use delone_io::{Crs, Format, Said};
 
 use crate::message::{Failure, lost, mislead};
 
@@ -38,7 +38,8 @@ struct Known {
 /// # Errors
 /// If another input has another one.
 pub(super) fn heed(crs: &mut Option<Crs>, path: &Path, role: Role, quiet: bool) -> Result<(), Failure> {
-    heed_side(crs, path, quiet);
+    let losses = delone_io::heed_sides(crs, path);
+    losses.iter().for_each(|loss| lost(quiet, loss));
     if let Some(said) = SAID.get().filter(|_| role == Role::Input || crs.is_none()) {
         *crs = Some(said.clone());
     }
@@ -61,37 +62,6 @@ pub(super) fn heed(crs: &mut Option<Crs>, path: &Path, role: Role, quiet: bool) 
         *system = Some(Known { crs: own.clone(), path: path.to_owned(), role });
     }
     Ok(())
-}
-
-/// A `.prj` file is a kilobyte, GDAL's file beside a raster some, with statistics and metadata.
-const LONGEST_SIDE: u64 = 16 << 20;
-
-/// The system of a raster whose file does not have it, or another one: that of a file beside it, as GDAL sees it.
-fn heed_side(crs: &mut Option<Crs>, path: &Path, quiet: bool) {
-    let Ok(format @ (Format::Tiff | Format::Asc)) = Format::of(path) else { return };
-    for side in besides_of_raster(path, format) {
-        let is_read = match side.extension().and_then(|extension| extension.to_str()) {
-            Some("xml") => format == Format::Tiff,
-            Some("prj") => crs.is_none(),
-            _ => false,
-        };
-        if !is_read
-            || !side.is_file()
-            || std::fs::metadata(&side).is_ok_and(|about| about.len() > LONGEST_SIDE)
-        {
-            continue;
-        }
-        let text = std::fs::read(&side).map_err(delone_io::Error::from);
-        match text.and_then(|text| crs_of_side(&side, &String::from_utf8_lossy(&text))) {
-            // Keys that define the system of the file go along where the other name is for the same.
-            Ok(Some(other)) => {
-                let keys = crs.take().filter(|own| own.epsg == other.epsg).and_then(|own| own.keys);
-                *crs = Some(Crs { keys, ..other });
-            }
-            Ok(None) => {}
-            Err(error) => lost(quiet, format_args!("{}: {error}", side.display())),
-        }
-    }
 }
 
 /// Keeps the outputs of the command.

@@ -3,6 +3,7 @@
 //! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids and the world file `.pgw` beside pictures are ESRI's. GDAL takes what
 //! its file says for more than what the raster's own says, and does not look there for the system of an ASCII grid.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
@@ -13,6 +14,8 @@ use crate::{Crs, Error, Format};
 
 /// The end of the name of GDAL's file beside another one.
 const PAM: &str = ".aux.xml";
+/// Bytes of a file beside a raster that is read: a `.prj` has a kilobyte, GDAL's file some, with statistics and metadata.
+const LONGEST_SIDE: u64 = 16 << 20;
 
 /// The file beside a raster that says what its coordinates mean, or of a picture where it is, and its text; `None` where the raster's own file
 /// says all of it, or nothing is known.
@@ -80,6 +83,51 @@ pub fn crs_of_side(side: &Path, text: &str) -> Result<Option<Crs>, Error> {
     let document = crate::xml::parse(text)?;
     let srs = document.descendants().find(|node| node.has_tag_name("SRS")).and_then(|node| node.text());
     srs.map(|name| Crs::of_name(name).ok_or_else(not_known)).transpose()
+}
+
+/// Replaces the system of a raster by that of a file beside it, as GDAL does: GDAL's own file goes before what a GeoTIFF says, and a `.prj`
+/// stands for what an ASCII grid cannot say. Other formats have none. Returns what is not understood, with the names of the files.
+///
+/// ```
+/// use std::path::Path;
+/// use delone_io::{Crs, heed_sides};
+///
+/// let folder = std::env::temp_dir();
+/// # let folder = folder.join(format!("delone-sides-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// std::fs::write(folder.join("dem.prj"), "PROJCS[\"ETRS_1989_UTM_Zone_32N\",GEOGCS[\"GCS_ETRS_1989\"]]")?;
+/// let mut crs = None;
+/// assert!(heed_sides(&mut crs, &folder.join("dem.asc")).is_empty());
+/// assert_eq!(crs.and_then(|crs| crs.epsg), Some(25832));
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), std::io::Error>(())
+/// ```
+pub fn heed_sides(crs: &mut Option<Crs>, path: &Path) -> Vec<String> {
+    let Ok(format @ (Format::Tiff | Format::Asc)) = Format::of(path) else { return Vec::new() };
+    let mut losses = Vec::new();
+    for side in besides_of_raster(path, format) {
+        let is_read = match side.extension().and_then(|extension| extension.to_str()) {
+            Some("xml") => format == Format::Tiff,
+            Some("prj") => crs.is_none(),
+            _ => false,
+        };
+        let is_short =
+            || fs::metadata(&side).is_ok_and(|about| about.is_file() && about.len() <= LONGEST_SIDE);
+        if !is_read || !is_short() {
+            continue;
+        }
+        let text = fs::read(&side).map_err(Error::from);
+        match text.and_then(|text| crs_of_side(&side, &String::from_utf8_lossy(&text))) {
+            // Keys that define the system of the file go along where the other name is for the same.
+            Ok(Some(other)) => {
+                let keys = crs.take().filter(|own| own.epsg == other.epsg).and_then(|own| own.keys);
+                *crs = Some(Crs { keys, ..other });
+            }
+            Ok(None) => {}
+            Err(error) => losses.push(format!("{}: {error}", side.display())),
+        }
+    }
+    losses
 }
 
 /// Where the pixels of a picture are, in six lines: the size of a pixel to the east, two of rotation, the size of a pixel to the next row, and

@@ -18,7 +18,7 @@ use crate::{Cloud, Contents, Crs, Direction, Error, Format, ReadOptions, Source,
 
 pub use asc::ASC_NODATA;
 pub(crate) use asc::read as read_asc;
-pub use beside::{beside_raster, besides_of_raster, crs_of_side};
+pub use beside::{beside_raster, besides_of_raster, crs_of_side, heed_sides};
 pub(crate) use npy::read as read_npy;
 pub use relief::{Light, Relief, ReliefKind, ReliefRows, ShadeWriter};
 pub(crate) use tiff::read as read_tiff;
