@@ -31,8 +31,6 @@ async function cargo(folder, profile, features) {
   const args = ["rustc", "--lib", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
   args.push("--profile", isDebug ? "checked" : profile);
   if (features) args.push("--features", features);
-  // What makes it smaller needs to know where addresses are.
-  if (!isDebug) args.push("--", "-C", "link-arg=--emit-relocs");
   const child = spawn("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"]});
   let told = "";
   child.stdout.setEncoding("utf8").on("data", (text) => (told += text));
