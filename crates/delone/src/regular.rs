@@ -1,6 +1,6 @@
 //! Common types of regular triangulations in the plane and in space: flaws, and the outcome of new weights.
 
-use crate::ids::VertexId;
+use crate::ids::{Duplicate, VertexId};
 
 /// A flaw of a regular triangulation. `F` is a flaw of any triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,4 +30,16 @@ pub enum Reweighed {
     },
     /// By a construction from nothing.
     Rebuilt,
+}
+
+/// The sites that stay when duplicates are forgotten, in the order of their ids: the new id of each old one, points, and weights.
+pub(crate) fn compacted<const D: usize>(
+    sites: impl Iterator<Item = Option<([f64; D], f64)>>,
+    duplicates: impl Iterator<Item = Duplicate>,
+) -> (Vec<Option<VertexId>>, Vec<[f64; D]>, Vec<f64>) {
+    let mut sites: Vec<_> = sites.collect();
+    duplicates.for_each(|duplicate| sites[duplicate.point] = None);
+    let (points, weights): (Vec<_>, Vec<_>) = sites.iter().flatten().copied().unzip();
+    let mut new = (0..points.len()).map(VertexId::new);
+    (sites.iter().map(|site| site.and_then(|_| new.next())).collect(), points, weights)
 }

@@ -13,7 +13,7 @@
 
 /// The simplex beyond a facet of the region.
 pub(crate) enum Beyond<S, const N: usize> {
-    /// It is in conflict: the facets to look across next, the first of them at once, the last of the others before the rest.
+    /// It is in conflict. The search goes on across the first facet, then across the others, the last one first.
     Inside(S, [S; N]),
     /// It is not in conflict, or not seen, or known.
     Outside,

@@ -6,8 +6,11 @@
 //! The walk does not know how a side is decided. Its caller knows: by exact orientation, by the filter of a box, or from
 //! coordinates and products seen in the step before. Each caller is compiled to a loop of its own.
 //!
-//! Three searches are no such walks. `straight` in `plane/layer/walk.rs` and `cross` in `plane/constrained/trace.rs` follow one line,
-//! and its side of each apex decides. Those along the hull (`hull_edge_nearest_to`, `nearest_hull_facet`) descend by distance.
+//! Others are written out, for a reason each:
+//!
+//! - `visibility` in `plane/layer/walk.rs` is this loop by hand, because location in the plane is a sixth faster by it;
+//! - `straight` there and `cross` in `plane/constrained/trace.rs` follow one line, and its side of each apex decides;
+//! - `hull_edge_nearest_to` and `nearest_hull_facet` go along the hull by distance.
 
 use crate::ids::EdgeId;
 

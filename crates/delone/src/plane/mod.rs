@@ -41,6 +41,7 @@ pub use delaunay::Delaunay2;
 pub use disk_edges::DiskEdges2;
 pub use furthest::{EnclosingCircle, Furthest2};
 pub use imprecise::Hints2;
+pub(crate) use layer::cavity::Cavity;
 pub use locate::Location2;
 pub use moving::{Moving2, Step2};
 pub use orders::{Exchange, OrderCells2, OrderCircle2, OrderK2, OrderRegion2};

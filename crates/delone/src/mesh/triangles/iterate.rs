@@ -78,6 +78,15 @@ impl Mesh2 {
         self.star(v).map(|e| self.destination(e)).filter(|w| !w.is_ghost())
     }
 
+    /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
+    pub(crate) fn finite_side(&self, e: EdgeId) -> EdgeId {
+        let t = e.triangle();
+        match self.places(t).iter().position(|v| v.is_ghost()) {
+            Some(k) => self.twin(t.edge(k).next()),
+            None => e,
+        }
+    }
+
     /// The finite triangles at a vertex, counter-clockwise.
     pub(crate) fn finite_star(&self, v: VertexId) -> Vec<TriangleId> {
         self.star(v).map(EdgeId::triangle).filter(|&t| !self.is_ghost(t)).collect()

@@ -128,6 +128,12 @@ impl Constrained2 {
         self.graph.named.unwrap_or(self.graph.base.points)
     }
 
+    /// Gives the topology and the points away: those of a construction, each vertex at the place of its id.
+    pub(crate) fn into_parts(self) -> (Mesh2, Vec<[f64; 2]>) {
+        debug_assert!(self.graph.named.is_none(), "nothing has changed since");
+        (self.graph.base.mesh, self.graph.base.points)
+    }
+
     /// Counts of the segments of the construction.
     pub fn report(&self) -> &ConstraintReport2 {
         &self.report

@@ -11,7 +11,7 @@
 //! Cost: O(k) for k triangles in the cavity, about four on average over random insertions; nothing is
 //! allocated once the buffers have grown.
 
-use super::kernel::{Kernel, Site, Sites};
+use super::kernel::{Kernel, NearestSites, Site, Sites};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::conflict::{self, Beyond};
 use crate::mesh::Mesh2;
@@ -21,7 +21,7 @@ use crate::tally::Tally;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
-pub(in crate::plane) struct Cavity {
+pub(crate) struct Cavity {
     /// Triangles of the cavity.
     triangles: Vec<TriangleId>,
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
@@ -53,14 +53,14 @@ impl Cavity {
 
     /// Finds the triangles in conflict with a point that is no vertex yet, from one of them on; they are marked. [`Self::fill`] or
     /// [`Self::abandon`] must follow.
-    pub(in crate::plane) fn dig<K: Kernel>(
+    pub(in crate::plane) fn dig(
         &mut self,
         mesh: &mut Mesh2,
-        sites: &Sites<'_, K>,
-        q: Site<K>,
+        points: &[[f64; 2]],
+        q: [f64; 2],
         seed: TriangleId,
     ) {
-        self.dig_observed(mesh, sites, q, seed, &mut ());
+        self.dig_observed(mesh, &Sites::<NearestSites> { points, weights: &[] }, (q, ()), seed, &mut ());
     }
 
     /// The border of what was dug, counter-clockwise: where each edge starts, and its twin outside.
@@ -68,9 +68,9 @@ impl Cavity {
         &self.border
     }
 
-    /// Makes `v`, whose cavity was dug, a vertex.
-    pub(in crate::plane) fn fill<K: Kernel>(&mut self, mesh: &mut Mesh2, v: Place) {
-        self.refill::<K>(mesh, v, self.triangles[0]);
+    /// Makes `v`, whose cavity was dug, a vertex. Sites hide none.
+    pub(crate) fn fill(&mut self, mesh: &mut Mesh2, v: Place) {
+        self.refill::<NearestSites>(mesh, v, self.triangles[0]);
     }
 
     /// Leaves what was dug as it is.
@@ -81,7 +81,7 @@ impl Cavity {
     /// The result of the last insertion: its new triangles, the first of which were those of the cavity but for the last
     /// two; and for each new triangle the border edge of the cavity that it stands on: where it starts, and its
     /// twin outside.
-    pub(in crate::plane) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
+    pub(crate) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
         (&self.triangles, &self.border)
     }
 

@@ -14,7 +14,6 @@ use super::shape::{Shape, squared_obtuseness};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::walk;
 use crate::plane::layer::insert::Spot;
-use crate::plane::layer::kernel::{NearestSites, Sites};
 
 /// The end of a walk.
 enum Met {
@@ -98,8 +97,7 @@ impl Mesher<'_> {
             return;
         }
         let mut cavity = std::mem::take(&mut self.layer.cavity);
-        let sites = Sites { points: &self.layer.points, weights: &self.layer.weights };
-        cavity.dig::<NearestSites>(&mut self.layer.mesh, &sites, (q, ()), t);
+        cavity.dig(&mut self.layer.mesh, &self.layer.points, q, t);
         let mesh = &self.layer.mesh;
         let near: Vec<EdgeId> = cavity
             .border()
@@ -157,7 +155,7 @@ impl Mesher<'_> {
     /// Fills the cavity that was dug.
     pub(super) fn fill(&mut self, v: Place) {
         let layer = &mut *self.layer;
-        layer.cavity.fill::<NearestSites>(&mut layer.mesh, v);
+        layer.cavity.fill(&mut layer.mesh, v);
     }
 }
 

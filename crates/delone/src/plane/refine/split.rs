@@ -15,7 +15,6 @@ use super::report::Reason;
 use super::shape::{squared, squared_height};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
-use crate::plane::layer::kernel::{NearestSites, Sites};
 use crate::powers::power_below;
 use crate::sorting;
 
@@ -202,8 +201,7 @@ impl Mesher<'_> {
         let seed = self.triangle_of(e, q);
         let layer = &mut *self.layer;
         layer.mesh.set_fixed(e, false);
-        let sites = Sites { points: &layer.points, weights: &layer.weights };
-        layer.cavity.dig::<NearestSites>(&mut layer.mesh, &sites, (q, ()), seed);
+        layer.cavity.dig(&mut layer.mesh, &layer.points, q, seed);
         let on = self.input_of(ends);
         let (nearest, square) = self.nearest(q);
         let wanted = domains.map(|domain| self.rules.size_at(q, domain));

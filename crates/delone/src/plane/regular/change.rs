@@ -20,6 +20,7 @@ use crate::mesh::Names;
 use crate::order;
 use crate::plane::layer::insert::Spot;
 use crate::points::{Position2, check_count, check_finite, check_weights, finite};
+use crate::regular::compacted;
 
 /// Vertices, up to which hints are not made anew: any hint is near.
 const UNHINTED_VERTICES: usize = 32;
@@ -103,17 +104,8 @@ impl Regular2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn compact(&mut self) -> Vec<Option<VertexId>> {
-        let mut ids: Vec<Option<VertexId>> = vec![None; self.ids_given()];
-        let mut is_kept: Vec<bool> = (0..ids.len()).map(|i| self.site(VertexId::new(i)).is_some()).collect();
-        self.duplicates().for_each(|duplicate| is_kept[duplicate.point] = false);
-        let (mut points, mut weights) = (Vec::new(), Vec::new());
-        for (i, id) in ids.iter_mut().enumerate().filter(|(i, _)| is_kept[*i]) {
-            if let Some((point, weight)) = self.site(VertexId::new(i)) {
-                *id = Some(VertexId::new(points.len()));
-                points.push(point);
-                weights.push(weight);
-            }
-        }
+        let sites = (0..self.ids_given()).map(|i| self.site(VertexId::new(i)));
+        let (ids, points, weights) = compacted(sites, self.duplicates());
         // It is a function of its sites.
         *self = divide_and_conquer(&points, &weights);
         ids

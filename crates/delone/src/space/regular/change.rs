@@ -15,7 +15,7 @@ use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::{Start, Strategy};
 use crate::order;
 use crate::points::{Position3, check_count, check_finite, check_weights, finite};
-use crate::regular::Reweighed;
+use crate::regular::{Reweighed, compacted};
 use delone_predicates::Site;
 
 /// The inverse of the share of sites whose weights may change before building anew is faster.
@@ -114,17 +114,8 @@ impl Regular3 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn compact(&mut self) -> Result<Vec<Option<VertexId>>, Error> {
-        let mut ids: Vec<Option<VertexId>> = vec![None; self.ids_given()];
-        let mut is_kept: Vec<bool> = (0..ids.len()).map(|i| self.site(VertexId::new(i)).is_some()).collect();
-        self.duplicates().for_each(|duplicate| is_kept[duplicate.point] = false);
-        let (mut points, mut weights) = (Vec::new(), Vec::new());
-        for (i, id) in ids.iter_mut().enumerate().filter(|(i, _)| is_kept[*i]) {
-            if let Some((point, weight)) = self.site(VertexId::new(i)) {
-                *id = Some(VertexId::new(points.len()));
-                points.push(point);
-                weights.push(weight);
-            }
-        }
+        let sites = (0..self.ids_given()).map(|i| self.site(VertexId::new(i)));
+        let (ids, points, weights) = compacted(sites, self.duplicates());
         // It is a function of its sites.
         *self = Self::from_parts(&points, &weights)?;
         Ok(ids)

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::mesh::Mesh;
 use super::{Found, Samples, Thinned, Triple, Verdict};
+use crate::ids::TriangleId;
 use crate::parallel;
 
 /// Rounding of errors, in parts of the largest height.
@@ -23,24 +24,30 @@ const TASK: usize = 24;
 pub(super) struct Greedy<'a, S: Samples> {
     pub(super) samples: &'a S,
     pub(super) mesh: Mesh,
-    /// The samples that are vertices, by vertex.
+    /// The samples that are vertices, or were, by place.
     pub(super) vertices: Vec<u32>,
     heap: BinaryHeap<S::Entry>,
     /// The worst sample of each triangle and its error, if that is more than allowed: other entries are those of triangles that are gone.
     worst: Vec<Option<(f64, u32)>>,
     /// Triangles of this round, which are not measured yet; some more than once.
-    fresh: Vec<u32>,
+    fresh: Vec<TriangleId>,
 }
 
 impl<'a, S: Samples> Greedy<'a, S> {
     pub(super) fn new(samples: &'a S, mesh: Mesh, vertices: &[u32]) -> Self {
-        let count = mesh.triangles.len();
-        let (worst, fresh) = (vec![None; count], (0..count as u32).collect());
+        let count = mesh.base.slot_count();
+        let fresh = mesh.triangles(0..count).collect();
+        let worst = vec![None; count];
         Self { samples, mesh, vertices: vertices.to_vec(), heap: BinaryHeap::new(), worst, fresh }
     }
 
-    fn corners(&self, t: u32) -> Triple {
-        self.mesh.triangles[t as usize].corners.map(|v| self.vertices[v as usize])
+    fn corners(&self, t: TriangleId) -> Triple {
+        self.mesh.base.places(t).map(|v| self.vertices[v.index()])
+    }
+
+    /// The samples that are vertices.
+    fn chosen(&self) -> impl Iterator<Item = u32> {
+        self.mesh.base.inhabited().map(|v| self.vertices[v.index()])
     }
 
     /// Chooses until nothing is further away than allowed, or there are enough.
@@ -50,7 +57,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
         let (first, mut is_pruned) = (self.vertices.len(), false);
         loop {
             self.measure(allowed);
-            while self.vertices.len() < max_points && !self.heap.is_empty() {
+            while self.mesh.base.vertex_count < max_points && !self.heap.is_empty() {
                 self.round(max_points, allowed);
                 self.measure(allowed);
             }
@@ -61,12 +68,12 @@ impl<'a, S: Samples> Greedy<'a, S> {
             let (error, missed) = self.prove(allowed);
             let before = self.vertices.len();
             for (t, sample) in missed {
-                if self.vertices.len() < max_points {
-                    self.choose(sample, t);
+                if self.mesh.base.vertex_count < max_points {
+                    self.choose(sample, TriangleId::new(t as usize));
                 }
             }
             if self.vertices.len() == before {
-                return Thinned { vertices: self.vertices.into_iter().map(|s| s as usize).collect(), error };
+                return Thinned { vertices: self.chosen().map(|s| s as usize).collect(), error };
             }
         }
     }
@@ -80,29 +87,30 @@ impl<'a, S: Samples> Greedy<'a, S> {
             std::mem::take(&mut self.heap).into_sorted_vec()
         };
         for entry in entries.into_iter().rev() {
-            let Found { error, sample, triangle: t } = self.samples.found(&entry);
+            let Found { error, sample, triangle } = self.samples.found(&entry);
+            let t = TriangleId::new(triangle as usize);
             let is_left = || !is_bounded && self.error_near(sample, t) > allowed.max(error / 2.0);
-            if self.worst[t as usize] == Some((error, sample)) || is_left() {
+            if self.worst[t.index()] == Some((error, sample)) || is_left() {
                 self.choose(sample, t);
             }
         }
     }
 
     /// The error of a sample now, near to a triangle that it was in; where it is between two, of both the larger.
-    fn error_near(&self, sample: u32, t: u32) -> f64 {
-        let error = |t: u32| self.samples.error(self.corners(t), sample);
+    fn error_near(&self, sample: u32, t: TriangleId) -> f64 {
+        let error = |t: TriangleId| self.samples.error(self.corners(t), sample);
         self.mesh.around(t, self.samples.point(sample)).into_iter().flatten().map(error).fold(0.0, f64::max)
     }
 
     /// Makes a sample a vertex, from a triangle that it is in or was in.
-    fn choose(&mut self, sample: u32, t: u32) {
+    fn choose(&mut self, sample: u32, t: TriangleId) {
         if !self.mesh.insert(self.samples.point(sample), t) {
             return;
         }
         self.vertices.push(sample);
-        self.worst.resize(self.mesh.triangles.len(), None);
-        for &t in &self.mesh.star {
-            self.worst[t as usize] = None;
+        self.worst.resize(self.mesh.base.slot_count(), None);
+        for &t in self.mesh.star() {
+            self.worst[t.index()] = None;
             self.fresh.push(t);
         }
     }
@@ -112,34 +120,37 @@ impl<'a, S: Samples> Greedy<'a, S> {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.sort_unstable();
         fresh.dedup();
+        // Those beside the hull may be ghosts.
+        fresh.retain(|&t| !self.mesh.base.is_ghost(t));
         let this = &*self;
-        let worst = |&t: &u32| this.samples.worst(this.corners(t), allowed);
-        let all = |task: &[u32]| -> Vec<Option<(f64, u32)>> { task.iter().map(worst).collect() };
+        let worst = |&t: &TriangleId| this.samples.worst(this.corners(t), allowed);
+        let all = |task: &[TriangleId]| -> Vec<Option<(f64, u32)>> { task.iter().map(worst).collect() };
         let found = parallel::share(self.samples.count(), fresh.chunks(TASK).collect(), all);
         for (&t, worst) in fresh.iter().zip(found.into_iter().flatten()) {
             if let Some((error, sample)) = worst
                 && error > allowed
             {
-                self.worst[t as usize] = worst;
-                self.heap.push(self.samples.entry(error, sample, t));
+                self.worst[t.index()] = worst;
+                self.heap.push(self.samples.entry(error, sample, t.index() as u32));
             }
         }
     }
 
-    /// Forgets the triangles there were: others have their numbers, and nothing is too far from them.
-    pub(super) fn renumber(&mut self) {
-        self.worst = vec![None; self.mesh.triangles.len()];
+    /// Forgets the triangles there were: others have their slots, and nothing is too far from them.
+    pub(super) fn forget(&mut self) {
+        self.worst.fill(None);
     }
 
     /// The largest error of all samples, and those that are further away than allowed, with a triangle each.
     fn prove(&self, allowed: f64) -> (f64, Vec<(u32, u32)>) {
         let count = self.samples.count();
         let seen: Vec<AtomicBool> = std::iter::repeat_with(AtomicBool::default).take(count).collect();
-        let triangles = self.mesh.triangles.len();
-        let tasks = parallel::even_ranges(triangles, parallel::parts(count));
-        let judge = |triangles: Range<usize>| {
+        let tasks = parallel::even_ranges(self.mesh.base.slot_count(), parallel::parts(count));
+        let judge = |slots: Range<usize>| {
             let mut verdict = Verdict::new(allowed, &seen);
-            triangles.map(|t| t as u32).for_each(|t| self.samples.judge(self.corners(t), t, &mut verdict));
+            for t in self.mesh.triangles(slots) {
+                self.samples.judge(self.corners(t), t.index() as u32, &mut verdict);
+            }
             verdict
         };
         let mut verdict = Verdict::new(allowed, &seen);
@@ -147,15 +158,15 @@ impl<'a, S: Samples> Greedy<'a, S> {
             verdict.largest = verdict.largest.max(part.largest);
             verdict.missed.extend(part.missed);
         }
-        self.vertices.iter().for_each(|&s| verdict.take(0, s, 0.0));
-        let mut near = 0;
+        self.chosen().for_each(|s| verdict.take(0, s, 0.0));
+        let mut near = self.mesh.base.ghost_edge.triangle();
         for sample in 0..count as u32 {
             if seen[sample as usize].load(Relaxed) || !self.samples.is_there(sample) {
                 continue;
             }
             if let [Some(t), _] = self.mesh.around(near, self.samples.point(sample)) {
                 near = t;
-                verdict.take(t, sample, self.samples.error(self.corners(t), sample));
+                verdict.take(t.index() as u32, sample, self.samples.error(self.corners(t), sample));
             }
         }
         (verdict.largest, verdict.missed)

@@ -31,11 +31,10 @@ use crate::order::morton;
 use crate::parallel;
 use crate::plane::Constrained2;
 use crate::points::{check_count, check_finite, survey};
-use crate::triangulation::Triangulation;
 use cloud::Cloud;
 use greedy::Greedy;
 use lattice::{HIGHEST, Lattice};
-use mesh::{Mesh, NONE};
+use mesh::Mesh;
 use plane::LOW;
 
 /// The factor of all heights if one exceeds [`HIGHEST`]: 2^-64.
@@ -224,7 +223,7 @@ impl Thinning {
         };
         let all = 0..samples.points.len() as u32;
         let thinned = scaled
-            .thin(&samples, &start, &c, filter)
+            .thin(&samples, &start, c, filter)
             .unwrap_or_else(|| Thinned { vertices: all.map(|s| s as usize).collect(), error: 0.0 })
             .named(&sorted.indices);
         Ok(Thinned { error: thinned.error / scale, ..thinned })
@@ -268,7 +267,7 @@ impl Thinning {
         let filter = filter(width * dx, height * dy, &sides);
         let samples = Lattice::new(grid, values);
         let points: Vec<[f64; 2]> = start.iter().map(|&s| samples.point(s)).collect();
-        let thinned = self.thin(&samples, &start, &Constrained2::from_parts(&points, &[])?, filter);
+        let thinned = self.thin(&samples, &start, Constrained2::from_parts(&points, &[])?, filter);
         let all = || (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
         Ok(thinned.unwrap_or_else(|| Thinned { vertices: all(), error: 0.0 }))
     }
@@ -294,35 +293,13 @@ impl Thinning {
         &self,
         samples: &S,
         start: &[u32],
-        c: &Constrained2,
+        c: Constrained2,
         filter: Filter,
     ) -> Option<Thinned> {
         if c.triangle_count() == 0 {
             return None;
         }
-        let mut number = vec![NONE; c.slot_count()];
-        for (n, t) in c.triangle_ids().enumerate() {
-            number[t.index()] = n as u32;
-        }
-        let mesh = c.mesh();
-        let triangles: Vec<_> = c
-            .triangle_ids()
-            .map(|t| {
-                let corners = mesh.corners(t).map(|v| v.index() as u32);
-                let across =
-                    [0, 1, 2].map(|k| Triangulation::across(c, t, k).map_or(NONE, |u| number[u.index()]));
-                let ends = |e| [mesh.origin(e), mesh.destination(e)].map(|v| v.index() as u32);
-                let fixed: Vec<[u32; 2]> = [0, 1, 2]
-                    .map(|k| t.edge(k))
-                    .into_iter()
-                    .filter(|&e| mesh.is_fixed(e))
-                    .map(ends)
-                    .collect();
-                let is_fixed = |k: usize| fixed.contains(&[corners[(k + 1) % 3], corners[(k + 2) % 3]]);
-                (corners, across, [0, 1, 2].map(is_fixed))
-            })
-            .collect();
-        let mesh = Mesh::new(c.points().to_vec(), &triangles, filter);
+        let mesh = Mesh::new(c, filter);
         let greedy = Greedy::new(samples, mesh, start);
         Some(parallel::inside(samples.count(), || greedy.run(self.max_error, self.max_points)))
     }
