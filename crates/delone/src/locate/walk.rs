@@ -19,23 +19,20 @@ use crate::ids::EdgeId;
 pub(crate) struct End<S> {
     /// The last simplex, or the edge of it that was crossed to it.
     pub(crate) at: S,
-    /// Simplices visited.
-    pub(crate) steps: usize,
     /// Whether the walk arrived. If not, it was given up.
     pub(crate) has_arrived: bool,
 }
 
-/// Walks from a simplex, which is the first step, and gives up after more steps than `most`. `onward` crosses a facet that separates
+/// Walks from a simplex, which is the first one visited, and gives up after `most` simplices. `onward` crosses a facet that separates
 /// a simplex from the goal; it returns `None` at the goal, beyond the hull, and where no more may be crossed.
 #[inline]
 pub(crate) fn walk<S: Copy>(from: S, most: usize, mut onward: impl FnMut(S) -> Option<S>) -> End<S> {
-    let (mut at, mut steps) = (from, 1);
-    while steps <= most {
-        let Some(next) = onward(at) else { return End { at, steps, has_arrived: true } };
+    let mut at = from;
+    for _ in 0..most {
+        let Some(next) = onward(at) else { return End { at, has_arrived: true } };
         at = next;
-        steps += 1;
     }
-    End { at, steps, has_arrived: false }
+    End { at, has_arrived: false }
 }
 
 /// The edge by which a walk leaves a triangle that it has entered across `from`; `None` if the goal is beyond neither of the other two.

@@ -26,7 +26,7 @@ impl Surround for Delaunay3 {
         let view = View { filter: &filter, ..self.base.view() };
         let hinted = near.map(|t| view.walk_within(t, q, HINTED_STEPS, &mut ()));
         let t = match hinted {
-            Some(End { at, has_arrived: true, .. }) => Some(at),
+            Some(End { at, has_arrived: true }) => Some(at),
             _ => self.walk_to(q, &mut ()),
         };
         Ok(match t {
