@@ -3,6 +3,7 @@
 mod codes;
 pub(crate) mod esri;
 pub(crate) mod keys;
+mod registry;
 mod units;
 
 use std::fmt;
