@@ -248,7 +248,7 @@ const POINTS_A_RUN: usize = 20_000;
 fn read(path: &str) -> Option<Vec<[f64; 2]>> {
     let format = delone_io::Format::of(Path::new(path)).ok()?;
     let file = BufReader::new(File::open(path).ok()?);
-    let options = delone_io::ReadOptions { dimension: 2, ..delone_io::ReadOptions::default() };
+    let options = delone_io::ReadOptions::default().dimension(2);
     Some(delone_io::read_points(Box::new(file), format, &options).ok()?.xy)
 }
 

@@ -36,7 +36,7 @@ impl Input {
         let mut beside = |extension: &str| -> Result<Box<dyn Source>, delone_io::Error> {
             Ok(Box::new(BufReader::new(File::open(path.with_extension(extension))?)))
         };
-        let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+        let options = ReadOptions::default().dimension(2);
         let graph = delone_io::read_graph(Box::new(file), format, &options, Some(&mut beside))
             .map_err(|error| error.to_string())?;
         let holes = (format == Format::Poly).then_some(graph.holes);

@@ -5,6 +5,8 @@ use crate::{Crs, Error, Features};
 
 /// Points in the order of their file: the coordinates that are triangulated, the heights beside them, and what else
 /// the file tells.
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cloud {
     /// x and y.

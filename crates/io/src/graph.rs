@@ -10,6 +10,8 @@ use crate::{Cloud, Crs, Error};
 ///
 /// Indices are those of the points, from 0, whatever the file counts from, and in range. Segments may cross, overlap, repeat
 /// or join a point to itself: that is judged by the triangulation, and so are coordinates.
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Graph {
     /// The points, with heights and system where the file has them, and remarks on how it was read.

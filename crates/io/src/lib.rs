@@ -25,6 +25,7 @@ mod iteration;
 mod limit;
 mod mesh;
 mod middles;
+mod options;
 mod output;
 mod patches;
 mod paths;
@@ -56,6 +57,7 @@ pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
 pub use limit::limit_output;
 pub use mesh::{Constraints, Drawable, Mesh, Rows, write_mesh};
+pub use options::ReadOptions;
 pub use output::{
     Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
     wait_for_names,
@@ -83,24 +85,6 @@ pub type Remark = Option<String>;
 pub trait Source: BufRead + Seek + Send + Sync {}
 
 impl<T: BufRead + Seek + Send + Sync> Source for T {}
-
-/// How to read points.
-#[derive(Clone, Debug, Default)]
-pub struct ReadOptions {
-    /// Which points of LAS files are taken.
-    pub las: LasFilter,
-    /// Columns of text that are x, y and perhaps z: names of the header, or numbers from 1. Of LAS files `x`, `y` and perhaps the dimension
-    /// that is the height, as in `x`, `y`, `intensity`.
-    pub columns: Vec<String>,
-    /// Dimensions of LAS files that are attributes: those of records (`intensity`, `gps_time`, ...), and those of extra bytes.
-    pub dimensions: Vec<String>,
-    /// Coordinates of a point where the format does not tell (raw numbers): 2 or 3.
-    pub dimension: usize,
-    /// Attributes of features are read, not their names alone.
-    pub attributes: bool,
-    /// Closed lines of drawings are polygons.
-    pub closed: bool,
-}
 
 /// Reads the points of a file, in its order.
 ///

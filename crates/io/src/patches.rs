@@ -8,6 +8,8 @@ use crate::picture::{Mark, Sketch, Tone, write_sketch};
 use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, Table, write_indices};
 
 /// Triangles of polygons, and which one each is of.
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug, Default)]
 pub struct Patches {
     /// The corners of all polygons, and what was added to them.

@@ -31,7 +31,7 @@ fn chunks_are_the_whole() {
     let flat: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
     for format in [Format::Text, Format::Npy, Format::Raw] {
         for dimension in [2, 3] {
-            let options = ReadOptions { dimension, ..ReadOptions::default() };
+            let options = ReadOptions::default().dimension(dimension);
             let mut bytes = Vec::new();
             match dimension {
                 2 => write_points(&mut bytes, format, &flat),

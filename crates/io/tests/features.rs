@@ -5,7 +5,7 @@ use std::io::Cursor;
 use delone_io::{Cloud, Format, ReadOptions, Value, read_graph, read_points};
 
 fn options() -> ReadOptions {
-    ReadOptions { attributes: true, dimension: 3, ..ReadOptions::default() }
+    ReadOptions::default().attributes(true).dimension(3)
 }
 
 fn points(format: Format, text: &str, options: &ReadOptions) -> Cloud {
@@ -53,7 +53,7 @@ fn columns_of_text() {
         (vec!["field_4".to_owned()], vec![vec!["0:4".to_owned()], vec!["0:8".to_owned()]])
     );
     // In the plane heights are an attribute.
-    let plane = ReadOptions { dimension: 2, ..options() };
+    let plane = options().dimension(2);
     let cloud = points(Format::Text, "x,y,elevation\n1,2,3\n", &plane);
     assert_eq!((table(&cloud).0, cloud.z.as_deref()), (vec!["elevation".to_owned()], Some(&[3.0][..])));
     assert_eq!(cloud.features.with_heights(&[3.0]), cloud.features);

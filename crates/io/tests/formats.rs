@@ -46,7 +46,7 @@ fn is_refused<T>(outcome: Result<T, Error>, format: Format, contents: Contents) 
 fn what_is_read_is_in_the_table() {
     let source = || -> Box<dyn Source> { Box::new(Cursor::new(b"0")) };
     for format in Format::all() {
-        let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+        let options = ReadOptions::default().dimension(2);
         for &contents in Contents::ALL {
             let refused = match contents {
                 Contents::Points => is_refused(read_points(source(), format, &options), format, contents),

@@ -35,12 +35,12 @@ fn file(count: u8, version: Version, records: u8, is_compressed: bool) -> Vec<u8
 }
 
 fn read(bytes: &[u8], las: LasFilter) -> Cloud {
-    let options = ReadOptions { las, ..ReadOptions::default() };
+    let options = ReadOptions::default().las(las);
     read_points(Box::new(Cursor::new(bytes.to_vec())), Format::Las, &options).expect("a file")
 }
 
 fn every(las: LasFilter) -> LasFilter {
-    LasFilter { withheld: true, ..las }
+    las.withheld(true)
 }
 
 #[test]
@@ -69,15 +69,15 @@ fn attributes_decide_which_points_are_taken() {
         let all = LasFilter::default;
         assert_eq!(taken(all()), where_is(&|i| i % 5 != 0));
         assert_eq!(taken(every(all())), where_is(&|_| true));
-        let returns = |returns| every(LasFilter { returns, ..all() });
+        let returns = |returns| every(all().returns(returns));
         assert_eq!(taken(returns(Returns::First)), where_is(&|i| i % 3 == 0));
         assert_eq!(taken(returns(Returns::Last)), where_is(&|i| i % 3 == 2));
         assert_eq!(taken(returns(Returns::Only)), where_is(&|_| false));
         assert_eq!(taken(returns(Returns::Number(2))), where_is(&|i| i % 3 == 1));
-        let skip = |skip: &[LasFlag]| every(LasFilter { skip: skip.to_vec(), ..all() });
+        let skip = |skip: &[LasFlag]| every(all().skip(skip.to_vec()));
         assert_eq!(taken(skip(&[LasFlag::Synthetic, LasFlag::KeyPoint])), where_is(&|i| i != 1 && i != 2));
         assert_eq!(taken(skip(&[LasFlag::Overlap])), where_is(&|i| i % 7 != 0));
-        let heights = |low, high| every(LasFilter { heights: Some([low, high]), ..all() });
+        let heights = |low, high| every(all().heights(Some([low, high])));
         assert_eq!(taken(heights(6.0, 12.0)), [2, 3, 4]);
         let cloud = read(&bytes, all());
         assert_eq!(cloud.flags, [1, 1, 10, 8]);

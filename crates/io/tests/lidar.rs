@@ -39,17 +39,16 @@ fn read(name: &str, options: &ReadOptions) -> Cloud {
 }
 
 fn of(las: LasFilter) -> ReadOptions {
-    ReadOptions { las, ..ReadOptions::default() }
+    ReadOptions::default().las(las)
 }
 
 fn in_box(within: [f64; 4]) -> ReadOptions {
-    of(LasFilter { within: Some(within), ..LasFilter::default() })
+    of(LasFilter::default().within(Some(within)))
 }
 
 /// All points, with columns that are named.
 fn columns(names: &str) -> ReadOptions {
-    let columns = names.split(',').map(str::to_owned).collect();
-    ReadOptions { columns, ..of(LasFilter { withheld: true, ..LasFilter::default() }) }
+    of(LasFilter::default().withheld(true)).columns(names.split(','))
 }
 
 /// The points with their heights, in one order.
@@ -65,12 +64,12 @@ fn trees_have_the_points_of_the_file() {
     let plain = LasFilter::default;
     let filters = [
         plain(),
-        LasFilter { withheld: true, ..plain() },
-        LasFilter { classes: vec![2], ..plain() },
-        LasFilter { returns: Returns::Last, skip: vec![LasFlag::Overlap], ..plain() },
-        LasFilter { heights: Some([25.0, 30.0]), within: Some(BOX), ..plain() },
-        LasFilter { within: Some(BOX), ..plain() },
-        LasFilter { within: Some([0.0, 0.0, 9.0, 9.0]), ..plain() },
+        plain().withheld(true),
+        plain().classes(vec![2]),
+        plain().returns(Returns::Last).skip(vec![LasFlag::Overlap]),
+        plain().heights(Some([25.0, 30.0])).within(Some(BOX)),
+        plain().within(Some(BOX)),
+        plain().within(Some([0.0, 0.0, 9.0, 9.0])),
     ];
     for filter in filters {
         let options = of(filter);
@@ -215,7 +214,7 @@ fn dimensions_are_heights() {
     assert_eq!(cloud.xy.len(), 588);
     assert_eq!(cloud.losses, ["12 points without a value of Reflectance are left out"]);
     assert_eq!(read("small.laz", &columns("x,y")).z, None);
-    let all = of(LasFilter { withheld: true, ..LasFilter::default() });
+    let all = of(LasFilter::default().withheld(true));
     assert_eq!(read("small.laz", &columns("X,Y,Z")), read("small.laz", &all));
 }
 
@@ -236,11 +235,11 @@ fn names_that_are_not_there_are_told_with_those_that_are() {
 fn dimensions_are_attributes() {
     for name in ["small.laz"].iter().chain(&TREES) {
         let dimensions = ["gps_time", "Reflectance", "Pulse", "gps_time"].map(str::to_owned).to_vec();
-        let options = ReadOptions { dimensions, attributes: true, ..in_box(BOX) };
+        let options = in_box(BOX).dimensions(dimensions).attributes(true);
         let cloud = read(name, &options);
         let table = &cloud.features.table;
         assert_eq!(table.names(), ["gps_time", "Reflectance", "Pulse"]);
-        let times = ReadOptions { columns: columns("x,y,gps_time").columns, ..in_box(BOX) };
+        let times = in_box(BOX).columns(columns("x,y,gps_time").columns);
         let times = read(name, &times).z.expect("times");
         let of_row = |row| table.value(row, 0);
         assert_eq!(
@@ -249,7 +248,7 @@ fn dimensions_are_attributes() {
             "{name}"
         );
         assert!((0..cloud.xy.len()).all(|point| cloud.features.row(point) == Some(point)));
-        let names_alone = read(name, &ReadOptions { attributes: false, ..options });
+        let names_alone = read(name, &options.attributes(false));
         assert_eq!((names_alone.features.table.names().len(), names_alone.features.table.len()), (3, 0));
     }
 }
@@ -271,7 +270,7 @@ fn extra_bytes_are_told() {
 
 #[test]
 fn a_file_of_which_nothing_is_taken_says_so() {
-    let none = read("small.laz", &of(LasFilter { classes: vec![9], ..LasFilter::default() }));
+    let none = read("small.laz", &of(LasFilter::default().classes(vec![9])));
     assert_eq!(none.remarks, ["none of its 600 points is taken"]);
     let beyond = read("small.laz", &in_box([0.0; 4]));
     assert!(beyond.remarks.is_empty() && beyond.classes.is_empty());

@@ -195,7 +195,7 @@ fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
 
 /// All coordinates of a file of points of space.
 fn coordinates(content: &[u8], format: Format, name: &str) -> Vec<u64> {
-    let options = ReadOptions { dimension: 3, ..ReadOptions::default() };
+    let options = ReadOptions::default().dimension(3);
     let cloud = read_points(source(content), format, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
     let heights = cloud.z.unwrap_or_else(|| panic!("{name}: no heights"));
     bits(cloud.xy.iter().zip(heights).flat_map(|(&[x, y], z)| [x, y, z]))

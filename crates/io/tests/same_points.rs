@@ -110,7 +110,7 @@ fn all_formats_give_the_same_triangles() {
     let texts =
         in_all_formats(&words).into_iter().map(|(name, format, text)| (name, format, text.into_bytes()));
     for (name, format, content) in texts.chain(in_binary_formats(&points)) {
-        let options = ReadOptions { dimension: 3, ..ReadOptions::default() };
+        let options = ReadOptions::default().dimension(3);
         let cloud = read_points(source(&content), format, &options).expect(name);
         let heights: Vec<f64> = points.iter().map(|p| p[2]).collect();
         assert!(cloud.z == Some(heights), "{name} ({format}): other heights");

@@ -21,7 +21,7 @@ const LAYERS: &[Format] = &[
 type Content = (Vec<String>, Vec<Vec<String>>, Vec<Option<usize>>, Vec<[usize; 2]>, Option<u32>);
 
 fn content(format: Format, file: &[u8]) -> Content {
-    let options = ReadOptions { attributes: true, dimension: 2, ..ReadOptions::default() };
+    let options = ReadOptions::default().attributes(true).dimension(2);
     let graph = read_graph(Box::new(Cursor::new(file.to_vec())), format, &options, None);
     let Graph { cloud, segments, rings, .. } = graph.unwrap_or_else(|error| panic!("{format}: {error}"));
     let own = read_rings(Box::new(Cursor::new(file.to_vec())), format).expect("rings");

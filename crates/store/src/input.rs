@@ -95,7 +95,7 @@ impl<'a> Input<'a> {
                 return Err(Error::NotInPieces { path: path.clone() });
             }
         }
-        let options = ReadOptions { dimension: if has_heights { 3 } else { 2 }, ..files.options.clone() };
+        let options = files.options.clone().dimension(if has_heights { 3 } else { 2 });
         Ok(Self { files, has_heights, options, watch })
     }
 

@@ -221,7 +221,7 @@ fn requests_that_are_wrong_are_refused() {
     fs::write(&place.input, "0,0,0\n1,0,0\n").expect("room");
     let error = run(&place.files(), build().resume(true));
     assert!(matches!(error, Error::OtherInput { difference: Difference::Changed, .. }));
-    let named = ReadOptions { dimensions: vec!["intensity".to_owned()], ..ReadOptions::default() };
+    let named = ReadOptions::default().dimensions(vec!["intensity".to_owned()]);
     assert!(matches!(run(&place.files().options(named), build()), Error::Attributes));
     let folder = Files::with_formats([(place.path("."), Format::Text)]);
     assert!(matches!(run(&folder, build()), Error::NotInPieces { .. }));

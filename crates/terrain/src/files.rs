@@ -38,7 +38,7 @@ pub struct Files {
 impl Files {
     /// Files whose points have heights, of LAS files ground.
     pub fn new<P: Into<PathBuf>>(paths: impl IntoIterator<Item = P>) -> Self {
-        let options = ReadOptions { dimension: 3, ..ReadOptions::default() };
+        let options = ReadOptions::default().dimension(3);
         Self { paths: paths.into_iter().map(Into::into).collect(), options, all_classes: false }
     }
 
@@ -102,7 +102,7 @@ pub fn read_polygons(path: &Path) -> Result<Graph, Error> {
 
 fn read(path: &Path, closed: bool) -> Result<Graph, Error> {
     let failed = |error| Error::File(error).at(path);
-    let options = ReadOptions { dimension: 2, closed, ..ReadOptions::default() };
+    let options = ReadOptions::default().dimension(2).closed(closed);
     let (source, format) = open(path).map_err(failed)?;
     read_graph(source, format, &options, Some(&mut beside(path))).map_err(failed)
 }

@@ -32,14 +32,13 @@ pub(crate) struct LasArgs {
 impl LasArgs {
     /// The filter of the library.
     pub(crate) fn filter(&self) -> LasFilter {
-        LasFilter {
-            classes: self.class.clone(),
-            returns: self.returns.unwrap_or_default(),
-            skip: self.skip.clone(),
-            withheld: self.withheld,
-            heights: self.z_range,
-            within: self.within,
-        }
+        LasFilter::default()
+            .classes(self.class.clone())
+            .returns(self.returns.unwrap_or_default())
+            .skip(self.skip.clone())
+            .withheld(self.withheld)
+            .heights(self.z_range)
+            .within(self.within)
     }
 
     /// The first option that was given.

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use delone_io::{Format, Graph, ReadOptions, Source, decompressed};
+use delone_io::{Format, Graph, Source, decompressed};
 
 use super::systems::{self, Role};
 use super::{READING, apart, beside, format, format_beside, heed, open, options, tell, wrong};
@@ -63,7 +63,7 @@ fn read_graph(
     quiet: bool,
 ) -> Result<(Graph, Vec<PathBuf>), Failure> {
     let mut besides = Vec::new();
-    let options = ReadOptions { closed: purpose == Purpose::Polygons, ..options(args, 2) };
+    let options = options(args, 2).closed(purpose == Purpose::Polygons);
     let mut all = Graph::default();
     for path in &args.input {
         let format = format(path, args.from, "--from")?;

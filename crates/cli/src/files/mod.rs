@@ -193,14 +193,12 @@ pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
     if !args.las.attributes.is_empty() {
         attributes::ask();
     }
-    ReadOptions {
-        las: args.las.filter(),
-        columns: args.columns.clone(),
-        dimensions: args.las.attributes.clone(),
-        dimension,
-        attributes: are_attributes_kept(),
-        closed: false,
-    }
+    ReadOptions::default()
+        .las(args.las.filter())
+        .columns(args.columns.clone())
+        .dimensions(args.las.attributes.clone())
+        .dimension(dimension)
+        .attributes(are_attributes_kept())
 }
 
 /// Reads the points of a command.
@@ -319,7 +317,7 @@ pub(crate) fn check_column(args: &InputArgs, name: &str) -> Result<(), Failure> 
 pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f64>, Failure> {
     let mut all = Vec::new();
     for path in &args.input {
-        let options = ReadOptions { columns: vec![name.to_owned(); 2], ..ReadOptions::default() };
+        let options = ReadOptions::default().columns([name; 2]);
         let (source, _phase) = open(path, Format::Text, READING, quiet)?;
         let cloud = delone_io::read_points(source, Format::Text, &options).map_err(|error| {
             let what = format!("{}: {name} is no file, and as a column: {error}", path.display());
@@ -347,7 +345,11 @@ pub(crate) fn queries(
     quiet: bool,
 ) -> Result<Cloud, Failure> {
     let attributes = are_attributes_kept();
-    cloud(path, &ReadOptions { dimension, dimensions, attributes, ..ReadOptions::default() }, quiet)
+    cloud(
+        path,
+        &ReadOptions::default().dimension(dimension).dimensions(dimensions).attributes(attributes),
+        quiet,
+    )
 }
 
 /// Reads the points of a file beside those of the input.

@@ -18,7 +18,7 @@ pub(super) struct Sizes {
 impl Sizes {
     /// Reads points with positive values.
     pub(super) fn read(path: &Path, columns: &[String], quiet: bool) -> Result<Self, Failure> {
-        let options = ReadOptions { columns: columns.to_vec(), dimension: 3, ..ReadOptions::default() };
+        let options = ReadOptions::default().columns(columns.to_vec()).dimension(3);
         let cloud = files::cloud(path, &options, quiet)?;
         let Some(values) = cloud.z.filter(|_| !cloud.xy.is_empty()) else {
             return Err(Failure::new(

@@ -9,6 +9,8 @@ mod units;
 use std::fmt;
 
 /// A coordinate reference system, as far as a file names it.
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crs {
     /// Its number in the EPSG registry; of a compound system the number of the horizontal part.

@@ -35,6 +35,8 @@ use crate::{Error, Format, Mesh};
 use view::View;
 
 /// Options of a drawing. `None` leaves a choice to the room there is.
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The longer side in pixels.

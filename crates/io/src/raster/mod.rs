@@ -82,6 +82,8 @@ pub enum Overviews {
 /// assert_eq!(info.grid.columns(), 1000);
 /// # Ok::<(), delone::Error>(())
 /// ```
+///
+/// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterInfo {
     /// Where the cells are, in the units of the system of coordinates.

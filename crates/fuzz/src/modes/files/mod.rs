@@ -66,11 +66,11 @@ pub(crate) fn mutated(group: usize, mutations: &[Mutation], seed: u64) -> (Forma
 fn read(format: Format, bytes: &[u8]) -> Judgement {
     let own = if format == Format::Ept { part_of(bytes, 0) } else { bytes };
     let source = || decompressed(Box::new(Cursor::new(own.to_vec())) as Box<dyn Source>, format);
-    let options = |dimension, classes| ReadOptions {
-        dimension,
-        las: LasFilter { classes, ..LasFilter::default() },
-        attributes: dimension == 2,
-        ..ReadOptions::default()
+    let options = |dimension, classes| {
+        ReadOptions::default()
+            .dimension(dimension)
+            .las(LasFilter::default().classes(classes))
+            .attributes(dimension == 2)
     };
     // What a file has beside it may be as broken as the file.
     let mut beside = |name: &str| {
@@ -85,12 +85,12 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
     let mut ways = vec![options(2, vec![]), options(3, vec![2])];
     if matches!(format, Format::Las | Format::Ept) {
         let within = Some([0.0, 0.0, 1060.0, 2060.0]);
-        ways.push(ReadOptions {
-            las: LasFilter { within, withheld: true, ..LasFilter::default() },
-            columns: ["x", "y", "Reflectance"].map(str::to_owned).to_vec(),
-            dimensions: ["intensity", "Pulse", "Normal[1]"].map(str::to_owned).to_vec(),
-            ..options(2, vec![])
-        });
+        ways.push(
+            options(2, vec![])
+                .las(LasFilter::default().within(within).withheld(true))
+                .columns(["x", "y", "Reflectance"])
+                .dimensions(["intensity", "Pulse", "Normal[1]"]),
+        );
     }
     let mut said = Vec::new();
     for options in ways {

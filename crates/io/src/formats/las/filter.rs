@@ -85,7 +85,15 @@ impl FromStr for LasFlag {
 }
 
 /// Which points of LAS, LAZ and EPT are taken: by default all but those withheld.
+///
+/// ```
+/// use delone_io::{LasFilter, Returns};
+///
+/// let ground = LasFilter::default().classes([2]).returns(Returns::Last).within(Some([0.0, 0.0, 100.0, 100.0]));
+/// assert!(!ground.withheld);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct LasFilter {
     /// The classes; all when empty.
     pub classes: Vec<u8>,
@@ -99,6 +107,50 @@ pub struct LasFilter {
     pub heights: Option<[f64; 2]>,
     /// A box in the plane with its border: the least x and y, and the largest. Of COPC and EPT, nodes that do not meet it are not read.
     pub within: Option<[f64; 4]>,
+}
+
+impl LasFilter {
+    /// Sets the classes; all when empty.
+    #[must_use]
+    pub fn classes(mut self, classes: impl Into<Vec<u8>>) -> Self {
+        self.classes = classes.into();
+        self
+    }
+
+    /// Sets the returns.
+    #[must_use]
+    pub fn returns(mut self, returns: Returns) -> Self {
+        self.returns = returns;
+        self
+    }
+
+    /// Sets the flags whose points are left out.
+    #[must_use]
+    pub fn skip(mut self, skip: impl Into<Vec<LasFlag>>) -> Self {
+        self.skip = skip.into();
+        self
+    }
+
+    /// Sets whether points that are withheld are taken too.
+    #[must_use]
+    pub fn withheld(mut self, withheld: bool) -> Self {
+        self.withheld = withheld;
+        self
+    }
+
+    /// Sets the least and the largest height.
+    #[must_use]
+    pub fn heights(mut self, heights: Option<[f64; 2]>) -> Self {
+        self.heights = heights;
+        self
+    }
+
+    /// Sets a box in the plane: the least x and y, and the largest.
+    #[must_use]
+    pub fn within(mut self, within: Option<[f64; 4]>) -> Self {
+        self.within = within;
+        self
+    }
 }
 
 /// The attributes of a point.
