@@ -12,18 +12,18 @@ use crate::sorting;
 
 /// A site that is no vertex.
 #[derive(Clone, Copy, Debug)]
-struct Below<C> {
+struct Hidden<C> {
     place: Place,
     /// The vertex that it equals, if that is what keeps it from being one.
     equal: Option<VertexId>,
-    /// The simplex above it, where there is one and it is known.
+    /// The simplex below the lifted site, once it is known.
     cell: Option<C>,
 }
 
 /// See the module. A simplex is a `C`.
 #[derive(Clone, Debug)]
 pub(crate) struct HiddenSites<C> {
-    sites: BTreeMap<VertexId, Below<C>>,
+    sites: BTreeMap<VertexId, Hidden<C>>,
     /// The sites whose simplex is known, by simplex.
     cells: BTreeSet<(C, VertexId)>,
     /// The sites that equal a vertex, by vertex.
@@ -42,7 +42,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
     /// Some sites, whose simplices are not known.
     pub(crate) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
         sites.sort_unstable();
-        let below = |(id, place)| (id, Below { place, equal: None, cell: None });
+        let below = |(id, place)| (id, Hidden { place, equal: None, cell: None });
         Self { sites: sites.into_iter().map(below).collect(), ..Self::default() }
     }
 
@@ -55,7 +55,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
         self.sites.iter().map(|(&id, site)| (id, site.place))
     }
 
-    /// All with their places and the simplices above them, by simplex as far as these are known: neighbors after neighbors.
+    /// All with their places and the simplices below them, by simplex as far as these are known: neighbors after neighbors.
     pub(crate) fn all_above(&self) -> impl Iterator<Item = (VertexId, Place, Option<C>)> + '_ {
         let unknown = self.sites.iter().filter(|(_, site)| site.cell.is_none());
         let unknown = unknown.map(|(&id, site)| (id, site.place, None));
@@ -82,7 +82,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
 
     /// The k-th name becomes the k-th of these. No simplex may be known.
     pub(crate) fn rename(&mut self, names: &[VertexId]) {
-        let renamed = |(id, mut site): (VertexId, Below<C>)| {
+        let renamed = |(id, mut site): (VertexId, Hidden<C>)| {
             site.equal = site.equal.map(|v| names[v.index()]);
             (names[id.index()], site)
         };
@@ -113,7 +113,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
     /// Another one, or one above another simplex.
     pub(crate) fn put(&mut self, id: VertexId, place: Place, equal: Option<VertexId>, cell: Option<C>) {
         self.take(id);
-        self.sites.insert(id, Below { place, equal, cell });
+        self.sites.insert(id, Hidden { place, equal, cell });
         self.cells.extend(cell.map(|t| (t, id)));
         self.equals.extend(equal.map(|vertex| (vertex, id)));
     }

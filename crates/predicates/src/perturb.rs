@@ -9,9 +9,9 @@
 //! Four distinct cocircular points have no collinear triple, so the first coefficient always decides. In space four of
 //! five cospherical points may be coplanar, and with weights three of four in the plane collinear: then the next one is asked.
 //!
-//! With weights a site above the lower hull of the others is no vertex. The perturbation makes none of that: among sites whose
-//! lifted points are on one plane, raising them one after the other places them from the smallest on, and each is outside of
-//! the hull of those before it, so each becomes a vertex. An order by index would hide some.
+//! With weights a site above the lower hull of the others is no vertex. The perturbation hides no site: let lifted points be
+//! coplanar, taken from the smallest on. Each lies outside of the hull of those before it, so each becomes a vertex. An order by
+//! index would hide some.
 
 use crate::{Point2, Point3, Sign, lexicographic, orient2d};
 
@@ -63,7 +63,7 @@ pub(crate) fn in_sphere_perturbed(
 /// The first coefficient that is not zero, of those of five points by number, in the descending order of the points.
 #[inline]
 pub(crate) fn first_coefficient(points: [&Point3; 5], coefficient: impl Fn(usize) -> Sign) -> Sign {
-    #[expect(clippy::needless_bitwise_bool, reason = "on grids, where ties are, it is chance that decides")]
+    #[expect(clippy::needless_bitwise_bool, reason = "on grids, processors cannot predict these branches")]
     let before = |p: &Point3, q: &Point3| {
         (p[0] < q[0]) | (p[0] == q[0]) & ((p[1] < q[1]) | (p[1] == q[1]) & (p[2] < q[2]))
     };

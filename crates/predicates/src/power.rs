@@ -59,8 +59,8 @@ pub fn in_power_interval(a: Site<2>, b: Site<2>, q: Site<2>) -> Sign {
     }
 }
 
-/// Three points on a line, whose lifted sites are on one too: the largest is raised. As an end it takes the line between the
-/// ends along, and beyond the other end the line goes down.
+/// Three collinear points whose lifted sites are collinear too: the largest is raised. If `q` is the largest, it lies above the line.
+/// Otherwise the raised end puts `q` below the line between the ends, and above it beyond the other end.
 fn raised_interval(a: Point2, b: Point2, q: Point2) -> Sign {
     if q == a || q == b {
         Sign::Zero

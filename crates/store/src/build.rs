@@ -21,7 +21,7 @@ use crate::seams::Joins;
 use crate::store::Store;
 use crate::sums::Written;
 use crate::watch::{Phase, Watch};
-use crate::{leaf, neighbors, trust};
+use crate::{neighbors, triangulate, trust};
 
 /// The memory that a run may take, if nobody says: one gibibyte.
 const MEMORY: u64 = 1 << 30;
@@ -142,7 +142,8 @@ impl Build {
         Self { apart, ..self }
     }
 
-    /// Makes the folder, or goes on with it. Gives what the files tell besides their points too, if they were counted now.
+    /// Makes the folder, or goes on with it. Returns the store, and the remarks of the files, which are
+    /// empty where a resumed run did not read them again.
     ///
     /// # Errors
     /// Those of the request, of files and of points. Whatever was done by then is found by a resumed run.
@@ -316,7 +317,7 @@ impl Run<'_> {
     /// Puts every point into the bucket of its tile.
     fn distribute(&self, plan: &mut Manifest, input: &Input) -> Result<(), Error> {
         let (folder, budget) = (self.folder, &self.budget);
-        // Those of a run that was stopped while it filled them; of none of its tiles it can be known what it was made of.
+        // An earlier run may have stopped while it filled buckets: its buckets and borders cannot be trusted.
         buckets::remove_all(folder);
         node::remove_all(folder);
         let has_heights = plan.has_heights;
@@ -359,7 +360,7 @@ impl Run<'_> {
             return Ok(());
         };
         let workers = self.budget.workers(filled.points, &buckets::bucket(folder, largest))?;
-        leaf::all(folder, &plan.cuts, &open, (plan.has_heights, self.rule), workers, self.watch)
+        triangulate::all(folder, &plan.cuts, &open, (plan.has_heights, self.rule), workers, self.watch)
     }
 
     /// Joins all borders, and adds up what there is.

@@ -33,6 +33,10 @@
 //! | `ids-NNNNN.npy` | for each of them its index in the input, from 0: uint64 (n,) |
 //! | `triangles-NNNNN.npy` | its triangles, counter-clockwise, as indices of its points: uint32 (t, 3) |
 //! | `seam-NNNNN.npy` | triangles between tiles, uint64 (t, 3): the number of the tile times 2^32, and the index there |
+//! | `neighbors-NNNNN.npy` | the triangle of the same file across each edge |
+//! | `across-NNNNN.npy` | the triangles across edges to other nodes |
+//! | `points-NNNNN.parquet`, `triangles-NNNNN.parquet` | the points and the triangles as tables, where they were asked for |
+//! | `border-NNNNN.bin`, `bucket-NNNNN.bin` | while work goes on |
 //!
 //! Nothing is printed, and no option is read: [`Watch`] hears of progress, and may end the work.
 
@@ -42,7 +46,6 @@ mod build;
 mod bytes;
 mod error;
 mod input;
-mod leaf;
 mod locate;
 mod manifest;
 mod neighbors;
@@ -56,6 +59,7 @@ mod sums;
 mod surface;
 #[cfg(feature = "parquet")]
 mod tables;
+mod triangulate;
 mod trust;
 mod verify;
 mod watch;

@@ -19,7 +19,7 @@ use crate::shards;
 use crate::sums::Written;
 use crate::watch::{Phase, Watch};
 
-/// Nothing is across: the outline, or in a tile what its file of other neighbors has.
+/// No triangle of this file is across: the edge is on the hull, or `across-NNNNN.npy` has its neighbor.
 const NONE: u32 = u32::MAX;
 
 /// An edge of a triangle, opposite to one of its corners.

@@ -64,7 +64,7 @@ pub trait Watch: Sync {
         delone_io::beside(path)(extension)
     }
 
-    /// A file of the input was read, so many points with those before it at its beginning.
+    /// Points of a file were read: `count` is their number so far, over all files.
     ///
     /// # Errors
     /// Why work must not go on: [`Error::Outside`].

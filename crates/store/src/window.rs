@@ -1,8 +1,8 @@
 //! A part of a folder of tiles, or some of its points.
 //!
-//! Of a box: every triangle that may meet it, from the tiles whose region does and from all seams. They are those of the whole: the
-//! triangulation of their corners has all of them, because what is empty of all points is empty of some, and the others are left
-//! out. Of an overview: points at equal steps along the curve of each tile.
+//! Of a box: every triangle that may meet it, from the tiles whose region does and from all seams. The triangulation
+//! of the corners contains all of them, because a circle that is empty of all points is empty of these. [`Part::tile_of`] tells them
+//! from other triangles. Of an overview: points at equal steps along the curve of each tile.
 //!
 //! Cost: reading the tiles and seams concerned, one at a time.
 
@@ -50,7 +50,7 @@ impl Part {
         self.triangles.len()
     }
 
-    /// The tile of a triangle by the names of its corners, none if it is of a seam; nothing if it is no triangle of the part.
+    /// The tile of the triangle with these corners: `Some(None)` for a triangle of a seam, `None` if the part has no such triangle.
     pub fn tile_of(&self, corners: [u64; 3]) -> Option<Option<Node>> {
         self.triangles.get(&sorted(corners)).copied()
     }

@@ -1,7 +1,7 @@
 //! Terrain models of points with heights: rasters, breaklines, level water, contours, hillshades, clipping.
 //!
-//! A [`Terrain`] is a [`Surface`] over the cells of a raster. Its heights are a function of the set of points and lines alone: the order
-//! of the points and the number of threads do not show. Rows are made in bands, so a raster may be larger than memory.
+//! A [`Terrain`] is a [`Surface`] over the cells of a raster. Its heights depend on the set of points and lines alone. The order
+//! of the points shows only under [`delone::surface::Duplicates::First`], the number of threads never. Rows are made in bands, so a raster may be larger than memory.
 //!
 //! ```
 //! use std::ops::ControlFlow;

@@ -61,8 +61,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Triangulates points with lines. The size of the cells says how far natural neighbors may see across a line: less than a quarter
-    /// of them.
+    /// Triangulates points with lines. Natural neighbors may see across a line by less than a quarter of the side of a cell.
     ///
     /// # Errors
     /// Those of points and heights; [`Error::Lines`] where lines cannot be edges; [`Error::OneLine`]; [`Error::Systems`].
@@ -207,11 +206,11 @@ fn with_lines(
     let mut level = Vec::new();
     if !levels.is_empty() {
         level = level_triangles(&c, &lines.bounds, &levels).map_err(failed)?;
-        // A corner of several is at the lowest.
+        // A vertex of several level polygons takes the lowest height.
         for &(corners, _) in &level {
             corners.iter().for_each(|v| heights[v.index()] = f64::INFINITY);
         }
-        // On an edge between two the one that is painted last counts.
+        // The lowest polygon is painted last, so it wins on common edges.
         level.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
         for &(corners, height) in &level {
             corners.iter().for_each(|v| heights[v.index()] = heights[v.index()].min(height));

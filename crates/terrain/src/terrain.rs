@@ -77,7 +77,7 @@ impl Terrain {
         Ok(Self { ground: Ground::Tiles(Box::new(tiles)), grid, clip: None, crs: None, remarks })
     }
 
-    /// Leaves heights inside of polygons alone.
+    /// Keeps only the heights inside of the polygons; all others become NaN.
     ///
     /// # Errors
     /// [`Error::Systems`] if their coordinates are of another system.

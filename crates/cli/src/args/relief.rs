@@ -1,102 +1,118 @@
-//! Arguments of commands about heights: `contours`, `simplify`.
+//! Relief: hillshades, and how steep the ground is.
 
 use std::path::PathBuf;
 
-use clap::Args;
-use delone_io::{Contents, Format};
+use clap::{Args, ValueEnum};
+use delone_io::{Contents, Format, Light, Relief, ReliefKind};
 
 use super::formats;
-use super::{DuplicatesName, EdgeArgs, InputArgs, WktArgs, count};
+use super::surface::CompressName;
 
-/// Contours.
+/// How the ground is lit.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  delone contours tile.laz --class ground --interval 5 -o contours.geojson
-  delone contours dem.tif --interval 10 --bands -o bands.geojson -o bands.png
-  delone contours soundings.csv --levels -20,-10,-5 --max-edge 200 -o depths.geojson
-  delone contours dem.tif --interval 2.5 --base 1 -o - --to geojson
-
-Points with heights, or the cells of a raster (tif asc, and npy of shape (rows, columns)), are triangulated, and lines are drawn where
-the triangles have a height: simple lines, closed or from border to border, with the higher ground on the left. A point exactly at a
-height counts as above it. With --bands the areas between two heights are written, polygons that tile the triangles; pictures have bands
-and lines then. GeoJSON has the property `elevation`, of bands `lower` and `upper`.
-Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
-pub(crate) struct ContoursArgs {
-    #[command(flatten)]
-    pub(crate) input: InputArgs,
-    /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Contours]))]
-    pub(crate) output: Vec<PathBuf>,
-    /// Format of outputs whose extension does not tell.
-    #[arg(long, value_name = "FORMAT")]
-    pub(crate) to: Option<Format>,
-    /// Heights that are multiples of this.
-    #[arg(
-        long,
-        value_name = "DZ",
-        conflicts_with = "levels",
-        required_unless_present = "levels",
-        allow_negative_numbers = true
-    )]
-    pub(crate) interval: Option<f64>,
-    /// A height that multiples of the interval are counted from [default: 0].
-    #[arg(long, value_name = "Z", requires = "interval", allow_hyphen_values = true)]
-    pub(crate) base: Option<f64>,
-    /// These heights, separated by commas.
-    #[arg(long, value_name = "Z", value_delimiter = ',', allow_hyphen_values = true)]
-    pub(crate) levels: Vec<f64>,
-    /// Which height a place has at which there are several points.
-    #[arg(long, value_name = "RULE", default_value = "lowest")]
-    pub(crate) duplicates: DuplicatesName,
-    /// Write the areas between heights.
-    #[arg(long)]
-    pub(crate) bands: bool,
-    #[command(flatten)]
-    pub(crate) edges: EdgeArgs,
-    /// The longer side of pictures in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
-    pub(crate) size: u32,
+pub(crate) struct LightArgs {
+    /// Factor of heights before slopes are taken.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, help_heading = "Hillshade")]
+    pub(crate) z_factor: f64,
+    /// Where the light comes from, in degrees clockwise from north.
+    #[arg(long, value_name = "DEGREES", default_value_t = 315.0, value_parser = degrees, help_heading = "Hillshade")]
+    pub(crate) azimuth: f64,
+    /// How high the light is above the horizon, in degrees.
+    #[arg(long, value_name = "DEGREES", default_value_t = 45.0, value_parser = degrees, help_heading = "Hillshade")]
+    pub(crate) altitude: f64,
+    /// Light from the south-west, the west, the north-west and the north at once.
+    #[arg(long, conflicts_with = "azimuth", help_heading = "Hillshade")]
+    pub(crate) multidirectional: bool,
 }
 
-/// Thinning.
+impl LightArgs {
+    /// A hillshade.
+    pub(crate) fn hillshade(&self) -> Relief {
+        let (azimuth, altitude) = (self.azimuth, self.altitude);
+        let kind = if self.multidirectional {
+            ReliefKind::Multidirectional { altitude }
+        } else {
+            ReliefKind::Hillshade(Light { azimuth, altitude })
+        };
+        Relief { kind, z_factor: self.z_factor }
+    }
+}
+
+/// The kind of a relief.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ReliefName {
+    /// Shades from 1 to 255.
+    Hillshade,
+    /// Degrees between the ground and the horizon.
+    Slope,
+    /// Where the ground falls to, in degrees clockwise from north.
+    Aspect,
+}
+
+/// Relief of a raster.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  delone simplify dem.tif --max-error 0.2 -o terrain.ply
-  delone simplify tile.laz --class ground --max-error 0.5 --max-edge 50 -o terrain.obj -o terrain.png
-  delone simplify tile.laz --points 1e4 -o terrain.ply --stats stats.json
-  delone simplify survey.csv --segments breaklines.csv --max-error 0.1 -o terrain.ply --kept kept.npy
+  delone relief dem.tif -o shade.tif -o shade.png
+  delone relief dem.tif --multidirectional --z-factor 2 -o shade.tif
+  delone relief dem.tif --kind slope -o slope.tif
 
-Few of the points with heights (or of the cells of a raster: tif asc, and npy of shape (rows, columns)) are left, so that the triangles
-of these are nowhere further from any other point than --max-error, in height: the corners of the hull first, then always the point that
-is furthest away (Garland & Heckbert 1995); then points that later ones made superfluous are left out. All points are measured again in
-the end. Segments of the input and of --segments stay edges. What is written has the points that are left alone, in the order of the input; --kept says which.
+Hillshades are bytes with 0 for no data, slopes and aspects numbers with -9999, as gdaldem has them; level ground has no aspect. Beside no
+data and at the border a cell stands for its neighbors. Of longitude and latitude lengths are those on the ellipsoid, and heights metres
+unless the system has others. Where the system names units of x and y and of heights, feet over metres say, slopes heed them; where it names no
+unit of heights, these are in the unit of x and y. A png has a world file beside it.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
-pub(crate) struct SimplifyArgs {
-    #[command(flatten)]
-    pub(crate) input: InputArgs,
+pub(crate) struct ReliefArgs {
+    /// A raster of heights.
+    #[arg(value_name = "IN", help = format!("Raster of heights: {}", formats::read(Contents::Rasters)))]
+    pub(crate) input: PathBuf,
+    /// Format of the input, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) from: Option<Format>,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Triangles]))]
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file ({}; png of hillshades), or - for standard output; may be repeated",
+            formats::written(&[Contents::Rasters])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    /// The kind of the output.
+    #[arg(long, value_name = "KIND", default_value = "hillshade")]
+    pub(crate) kind: ReliefName,
     #[command(flatten)]
-    pub(crate) wkt: WktArgs,
-    /// How far from the triangles any point may be, in height.
-    #[arg(long, value_name = "DZ", required_unless_present = "points", allow_negative_numbers = true)]
-    pub(crate) max_error: Option<f64>,
-    /// The number of points to stop at.
-    #[arg(long, value_name = "N", value_parser = count)]
-    pub(crate) points: Option<usize>,
-    /// Which height a place has at which there are several points.
-    #[arg(long, value_name = "RULE", default_value = "lowest")]
-    pub(crate) duplicates: DuplicatesName,
-    /// Segments between the points.
-    #[arg(long, value_name = "FILE", help = formats::segments())]
-    pub(crate) segments: Option<PathBuf>,
-    /// Write the indices of the points that are left, of rasters among the cells with data, row by row (npy csv).
+    pub(crate) light: LightArgs,
+    /// How GeoTIFF is compressed.
+    #[arg(long, value_name = "HOW", default_value = "deflate")]
+    pub(crate) compress: CompressName,
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
-    pub(crate) kept: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) edges: EdgeArgs,
+    pub(crate) stats: Option<PathBuf>,
+}
+
+impl ReliefArgs {
+    /// The relief of the library.
+    pub(crate) fn relief(&self) -> Relief {
+        let kind = match self.kind {
+            ReliefName::Hillshade => return self.light.hillshade(),
+            ReliefName::Slope => ReliefKind::Slope,
+            ReliefName::Aspect => ReliefKind::Aspect,
+        };
+        Relief { kind, z_factor: self.light.z_factor }
+    }
+}
+
+/// A positive number.
+fn factor(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite());
+    number.ok_or_else(|| "it is no positive number".to_owned())
+}
+
+/// An angle from 0 to 360 degrees.
+fn degrees(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| (0.0..=360.0).contains(x));
+    number.ok_or_else(|| "it is no angle from 0 to 360 degrees".to_owned())
 }

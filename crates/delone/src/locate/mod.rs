@@ -56,8 +56,8 @@ pub enum Locate {
     JumpAndWalk(JumpAndWalk),
     /// A descent through triangulations of ever larger random samples.
     Hierarchy(Hierarchy),
-    /// A descent through all triangles that ever were. Removal is an error. This and the next two are the tree in the plane
-    /// without the feature `histories`.
+    /// A descent through all triangles that ever were. Removal is an error. In the plane, without the feature `histories`, this
+    /// and the next two act as [`Self::Tree`]. In space, this and `Stars` are errors.
     History,
     /// A history without the triangles that came and went in one insertion. The triangles that an insertion left are searched by
     /// binary search around the new vertex. Removal is an error.
@@ -172,7 +172,7 @@ pub(crate) trait Level: Ground + Default {
 pub(crate) enum Start<H = EdgeId> {
     /// Here, by the walk given.
     At(H, Walk),
-    /// Here; a tree has this hint for the goal under this number.
+    /// Here. The number is the key of the strategy: a leaf of the tree, or a triangle of the history.
     Hint(H, u32),
     /// At this vertex, along the straight line to the goal.
     Vertex(Place),

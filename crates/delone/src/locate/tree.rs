@@ -1,7 +1,7 @@
 //! A k-d tree of hints: the fastest start of a walk.
 //!
 //! Source: Bentley, "Multidimensional binary search trees used for associative searching", CACM 1975, split at
-//! medians. The tree holds no points: it is built over a quarter of the vertices, evenly taken from the order in
+//! medians. The tree holds no points: it is built over half of the vertices, evenly taken from the order in
 //! which they are kept, and a leaf remembers an edge at its vertex. A hint may grow old; it may not be wrong,
 //! because the walk decides.
 //!

@@ -7,7 +7,7 @@ pub(crate) mod triangles;
 
 pub(crate) use names::Names;
 pub(crate) use slots::Slots;
-pub use tetrahedra::{Mesh3, MeshFlaw3};
+pub use tetrahedra::{AroundEdge, Mesh3, MeshFlaw3};
 pub use triangles::{Hull, Mesh2, MeshFlaw2, Star};
 
 /// The dimension of a set of points. There are five in the plane and in space, so a match may name them all.

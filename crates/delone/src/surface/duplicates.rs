@@ -1,4 +1,4 @@
-//! Heights of points that others are at too: one for each place, whatever the order of the points.
+//! One height for each set of equal points. Only the rule `First` depends on their order.
 
 /// Which height a place has at which there are several points.
 ///
@@ -24,7 +24,7 @@ pub enum Duplicates {
     Mean,
 }
 
-/// The height of one place by a rule, whatever the order of its heights.
+/// The height of one place by a rule, of which `First` alone depends on the order of its heights.
 #[derive(Clone, Debug)]
 pub struct Several {
     rule: Duplicates,

@@ -1,7 +1,7 @@
 //! More points than memory: triangulated in tiles, the same triangles to the last tie.
 //!
 //! [`Cuts`] divide the plane into regions, a tree of them, and each point belongs to the tile whose region it is in. A [`Tile`]
-//! tells by itself which of its triangles are *final*: those whose circle stays inside of its region, because no
+//! tells by itself which of its triangles are *final*: those whose circle stays inside of its region (their *certificate*), because no
 //! point of another tile can be there. The few others, near the cuts and along the outline, are *open*; their corners and those of
 //! the hull are the tile's [`Border`], and all that others need of it. [`join`] triangulates the borders of the parts of a region
 //! together, and keeps a triangle if its corners are of different parts, or if it was open in its part. Of those kept some are
@@ -9,7 +9,7 @@
 //!
 //! In space it is the same with spheres and tetrahedra: `Cuts<3>`, `Region<3>`, [`Tile3`], [`Border3`], [`join3`].
 //!
-//! Two pure functions of points and a region: no files, no threads of its own, no clock, no neighbors, no rounds. One process can walk
+//! `Tile::new` and `join` are pure functions of points and a region: they use no file, no clock, and no messages between tiles. One process can walk
 //! the tree, many machines can share it.
 //!
 //! Source: the certificate is the one by which Isenburg, Liu, Shewchuk & Snoeyink finalize triangles ("Streaming computation of
@@ -38,8 +38,8 @@
 //! U_j has both ends in B and is an edge of T(P_X), so of T(B): each triangle of T(B) is inside of the area of F or outside. Outside, T(B)
 //! and T(P_X) without F cover the same area, and all triangles of the latter are in T(B): they are the same. (d) Final triangles of
 //! different parts share no corner, so a connected piece of F is of one part j, and a triangle of T(B) inside of it has all corners in j and
-//! is not in U_j, which lies outside of F_j. Outside of F it has corners of different parts or is in U_j, by (b). The two are told
-//! apart by what is asked.
+//! is not in U_j, which lies outside of F_j. Outside of F it has corners of different parts or is in U_j, by (b). So the test of a join
+//! keeps exactly the triangles outside of F.
 //!
 //! All of this holds in space, with tetrahedra and spheres, and facets for edges.
 //!

@@ -11,8 +11,10 @@
 //! Memory: 32 bytes a tetrahedron, one byte beside it for marks, 4 bytes a place.
 
 mod check;
+mod iterate;
 
 pub use check::MeshFlaw3;
+pub use iterate::AroundEdge;
 
 use std::collections::BTreeSet;
 

@@ -68,7 +68,7 @@ impl Cavity {
         &self.border
     }
 
-    /// Makes `v`, whose cavity was dug, a vertex. Sites hide none.
+    /// Makes `v`, whose cavity was dug, a vertex. The kernel hides no sites.
     pub(crate) fn fill(&mut self, mesh: &mut Mesh2, v: Place) {
         self.refill::<NearestSites>(mesh, v, self.triangles[0]);
     }
@@ -78,9 +78,8 @@ impl Cavity {
         self.triangles.iter().for_each(|&t| mesh.unmark(t));
     }
 
-    /// The result of the last insertion: its new triangles, the first of which were those of the cavity but for the last
-    /// two; and for each new triangle the border edge of the cavity that it stands on: where it starts, and its
-    /// twin outside.
+    /// The result of the last insertion: its new triangles, and for each the border edge that it stands on: its start, and its twin
+    /// outside. Without hidden vertices, all but the last two reuse triangles of the cavity.
     pub(crate) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
         (&self.triangles, &self.border)
     }

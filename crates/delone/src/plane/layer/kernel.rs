@@ -3,7 +3,7 @@
 //!
 //! The contract: for points in general position, which the perturbation makes of all, the triangles in conflict with a new
 //! point are connected, and star-shaped around it. Where no site hides another ([`Kernel::HIDES`]) no vertex is inside of
-//! the cavity: n edges of its border stand where n - 2 triangles were. HiddenSites a kernel that hides sites (circles with weights)
+//! the cavity: n edges of its border stand where n - 2 triangles were. Under a kernel that hides sites (circles with weights)
 //! a vertex inside of a cavity is one that the new site hides, a new site without a cavity is hidden itself, and what a removal
 //! sets free has to be looked for among the hidden: `cavity`, `remove` and `check` say where they count on that.
 
@@ -27,14 +27,14 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
     /// Whether the circle of a finite triangle contains a site, in the sense of the kernel.
     fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool;
 
-    /// Decides for three sites on a line whether the segment from u to v goes if there is a vertex at q.
+    /// Decides for three sites on a line whether a vertex at q destroys the segment from u to v.
     #[inline]
     fn contains_on_line(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
         strictly_between(u.0, v.0, q.0)
     }
 
-    /// Decides for the half-plane on the left of a hull edge seen from outside, with the inside of the edge itself: the circle of
-    /// a ghost.
+    /// Whether the circle of a ghost contains a site: the open half-plane on the left of the hull edge from u to v, seen from
+    /// outside, and the open edge itself.
     #[inline]
     fn contains_beyond(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
         match orient2d(u.0, v.0, q.0) {

@@ -47,7 +47,7 @@ pub(in crate::plane) struct Layer<K: Kernel = NearestSites> {
     pub(in crate::plane) free: Slots,
     pub(in crate::plane) cavity: Cavity,
     pub(in crate::plane) hole: Hole<K>,
-    /// Known without a look at the mesh: most operations ask.
+    /// Whether the vertices span the plane; kept because most operations ask.
     pub(in crate::plane) spanned: bool,
     /// The vertices in order, where all are on one line and somebody has searched it.
     line: OnceLock<Line>,
@@ -150,7 +150,7 @@ impl<K: Kernel> Layer<K> {
         }
     }
 
-    /// Lays everything out in memory as in the plane, with room between neighbors. Returns for each old place
+    /// Lays points and triangles out in Morton order, with room between neighbors. Returns for each old place
     /// the new one.
     pub(in crate::plane) fn lay_out(&mut self, room: Room) -> Vec<Place> {
         let order = self.sort(room);
@@ -207,7 +207,7 @@ impl<K: Kernel> Ground for Layer<K> {
         self.mesh.incident[v.index()]
     }
 
-    /// The smallest of the stars decides what it costs.
+    /// An edge or a triangle at corners. Cost: O(d) for the smallest degree d of the corners.
     fn hint_at<T: Tally>(&self, corners: &[Place], tally: &mut T) -> EdgeId {
         let edge = match *corners {
             [a, b] if self.spanned => self.mesh.edge_around([a, b], || tally.visited()),

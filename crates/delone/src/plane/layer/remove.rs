@@ -9,7 +9,7 @@
 //! dividing and conquering the border. The ghost vertex is a vertex of the border like others, so the hull is no
 //! special case.
 //!
-//! Where no site hides another the border of the hole has all sites that its triangles can have. HiddenSites a kernel that hides sites
+//! Where no site hides another the border of the hole has all sites that its triangles can have. Under a kernel that hides sites
 //! this gives the triangulation of those that were vertices, and those that the removed one hid are inserted by the owner.
 
 use delone_predicates::{Filter, orient2d};

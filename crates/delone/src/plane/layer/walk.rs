@@ -58,7 +58,7 @@ pub(in crate::plane) fn walk<K: Kernel, T: Tally>(
     }
 }
 
-/// A visibility walk, which ends, anywhere, after more steps than `most`, at least 2. Where edges are fixed the triangulation
+/// A visibility walk that gives up after more than `most` steps (at least 2), wherever it is. Where edges are fixed the triangulation
 /// need not be Delaunay, and the walk is stochastic.
 #[inline]
 pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(

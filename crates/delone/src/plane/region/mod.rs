@@ -66,7 +66,7 @@ impl Region2 {
             rings: vec![corners.to_vec()],
             sides: Vec::new(),
             tree,
-            are_border: rings::are_border_each,
+            are_border: rings::each_is_border,
         })
     }
 

@@ -19,7 +19,7 @@ pub(in crate::plane) fn is_border(
     ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone,
     is_exact: impl Fn(usize) -> bool,
 ) -> bool {
-    is_convex(ring.clone()) || is_simple(&ring.collect::<Vec<_>>(), &is_exact) == Some(true)
+    is_convex(ring.clone()) || simple_orientation(&ring.collect::<Vec<_>>(), &is_exact) == Some(true)
 }
 
 /// Whether a ring turns left at every corner, and goes around once.
@@ -43,11 +43,14 @@ fn is_convex(mut ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> bool 
     turns == 1
 }
 
-/// Whether a ring of at least three corners touches itself nowhere, and then whether it is counter-clockwise: each side with an end that
-/// is not exact against all others.
+/// The orientation of a simple ring of at least three corners: `Some(true)` if it is counter-clockwise, `None` if the ring touches itself.
+/// Only sides with an end that is not exact are tested.
 #[cold]
 #[inline(never)]
-pub(in crate::plane) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> Option<bool> {
+pub(in crate::plane) fn simple_orientation(
+    ring: &[[f64; 2]],
+    is_exact: &dyn Fn(usize) -> bool,
+) -> Option<bool> {
     let count = ring.len();
     let after = |i: usize| if i + 1 == count { 0 } else { i + 1 };
     let side = |i: usize| [ring[i], ring[after(i)]];
@@ -70,8 +73,8 @@ pub(in crate::plane) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) ->
 }
 
 /// Whether rings of at least three corners each are the border of something, whatever they are to each other.
-pub(in crate::plane) fn are_border_each(rings: &[Vec<[f64; 2]>]) -> bool {
-    rings.iter().all(|ring| is_simple(ring, &|_| false) == Some(true))
+pub(in crate::plane) fn each_is_border(rings: &[Vec<[f64; 2]>]) -> bool {
+    rings.iter().all(|ring| simple_orientation(ring, &|_| false) == Some(true))
 }
 
 /// Whether rings of at least three corners are all of the border of something on their left: they touch in corners at most, outer ones are
@@ -90,7 +93,7 @@ pub(in crate::plane) fn visits_twice(ring: &[[f64; 2]]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{are_border, are_border_each, is_border, is_convex};
+    use super::{are_border, each_is_border, is_border, is_convex};
 
     #[test]
     fn borders_are_simple_and_counter_clockwise() {
@@ -147,7 +150,7 @@ mod tests {
             let all: Vec<_> = std::iter::once(outer.clone()).chain(others).collect();
             assert_eq!(are_border(&all), expected, "{all:?}");
         }
-        assert!(are_border_each(&[outer.clone(), square(1.0, 1.0, 1.0)]));
-        assert!(!are_border_each(&[outer, turned(square(1.0, 1.0, 1.0))]));
+        assert!(each_is_border(&[outer.clone(), square(1.0, 1.0, 1.0)]));
+        assert!(!each_is_border(&[outer, turned(square(1.0, 1.0, 1.0))]));
     }
 }

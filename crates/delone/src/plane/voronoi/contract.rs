@@ -16,7 +16,7 @@ use delone_predicates::{lexicographic, orient2d};
 
 use super::cells::Cells2;
 use crate::plane::region::Region2;
-use crate::plane::region::rings::{is_border, is_simple};
+use crate::plane::region::rings::{is_border, simple_orientation};
 use crate::sorting;
 
 /// Sides are contracted, and corners put into sides, up to this length in units in the last place of a ring's largest coordinate. Of
@@ -245,7 +245,8 @@ impl Mending<'_> {
             return;
         }
         let is_one = rings.len() == 1;
-        let mut crossed = (0..rings.len()).filter(|&i| is_one || is_simple(&places[i], &|_| false).is_none());
+        let mut crossed =
+            (0..rings.len()).filter(|&i| is_one || simple_orientation(&places[i], &|_| false).is_none());
         let mut any = false;
         for i in &mut crossed {
             any = true;
