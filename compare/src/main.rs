@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Parser;
-use delone::plane::verify::verify;
+use delone::verify::verify2;
 use delone_generators::Kind;
 
 use engines::{ENGINES, Engine};
@@ -279,7 +279,7 @@ fn measure(entry: &mut Entry, points: &[[f64; 2]], judge: bool, patience: f64) {
         Ok(Ok((time, triangles))) => {
             entry.times.push(time);
             if judge {
-                entry.wrong = verify(points, &triangles).err().map(|objection| objection.to_string());
+                entry.wrong = verify2(points, &triangles).err().map(|objection| objection.to_string());
             }
         }
     }

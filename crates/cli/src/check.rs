@@ -1,6 +1,6 @@
 //! `delone check`: an exact verdict on anyone's simplices.
 
-use delone::plane::verify::{Objection2, verify_constrained};
+use delone::verify::{Objection2, verify_constrained2};
 use delone::{Constrained2, Delaunay2, Verdict};
 
 use crate::args::{CheckArgs, GraphArgs};
@@ -58,7 +58,7 @@ fn with_segments(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let (points, segments) = (&graph.cloud.xy, &graph.segments);
     let verdict = {
         let _phase = Phase::start(quiet, "checking");
-        verify_constrained(points, segments, &triangles)
+        verify_constrained2(points, segments, &triangles)
     };
     stats.phase("check");
     stats.set("points", points.len());

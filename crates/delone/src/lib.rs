@@ -48,7 +48,7 @@
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | values between points: linear, natural neighbors, smooth; rasters, contours, thinning | [`surface`], [`surface::Interpolator`] | the same | O(1) expected each from nearby |
 //! | more points than memory, on one machine or many | [`tiles`] | | as the points, and little for the seams |
-//! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
+//! | triangles from elsewhere, to be judged | [`verify::verify2`] | [`verify::verify3`] | O(n log n) |
 //! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |
 //! | code for any kind of triangulation | [`Triangulation`], [`Ask`], [`Change`] | the same | |
 //!
@@ -118,18 +118,18 @@ mod ids;
 mod joining;
 mod locate;
 mod memory;
-pub mod mesh;
+mod mesh;
 mod neighbors;
 mod order;
 mod parallel;
-pub mod plane;
+mod plane;
 mod points;
 mod powers;
 mod prefetch;
 mod regular;
 mod sets;
 mod sorting;
-pub mod space;
+mod space;
 pub mod surface;
 mod tally;
 pub mod tiles;
@@ -149,21 +149,36 @@ pub use ids::{
 };
 pub use joining::{MERGE_AUTO, merged_vertices};
 pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
-pub use mesh::{Dimension, Mesh2, Mesh3};
+pub use mesh::{Dimension, Mesh2, Mesh3, MeshFlaw2, MeshFlaw3};
 pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
 pub use parallel::share_work_from;
+pub use plane::check::Flaw2;
 pub use plane::{
-    Algorithm2, Cell2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
-    Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Jacobian2, Keep, Location2, Moving2,
-    NearestSites2, OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Part2, PolygonTriangles2, Polygons2,
-    Power2, Prescribed2, Reason, Refined2, Refinement, RefinementReport2, Region2, RegionSeed2, Regular2,
-    Relaxation2, Ring, Seeds2, SegmentEnds, SegmentId, Step2, Unrefined2, Voronoi2, VoronoiEdge2,
+    Algorithm2, Cell2, Cells2, Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings,
+    Delaunay2, DiskEdges2, Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Jacobian2, Keep,
+    Location2, Moving2, NearestSites2, OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Part2,
+    PolygonTriangles2, Polygons2, Power2, Prescribed2, Reason, Refined2, Refinement, RefinementReport2,
+    Region2, RegionSeed2, Regular2, Relaxation2, Ring, Seeds2, SegmentEnds, SegmentId, Step2, Unrefined2,
+    Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
 pub use regular::{RegularFlaw, Reweighed};
+pub use space::check::Flaw3;
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};
 pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Regular, Triangulation};
 pub use verdict::Verdict;
 pub use vertex_map::VertexMap;
+
+/// Iterators over the parts of a mesh.
+pub mod iter {
+    pub use crate::mesh::{AroundEdge, Hull, Star};
+}
+
+/// Triangles and tetrahedra from any program, judged exactly: whether they are the Delaunay triangulation of the points, and whether its ties
+/// are decided as this library decides them.
+pub mod verify {
+    pub use crate::plane::verify::{Objection2, verify_constrained2, verify_weighted2, verify2};
+    pub use crate::space::verify::{Objection3, verify_weighted3, verify3};
+}

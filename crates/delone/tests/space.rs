@@ -1,6 +1,6 @@
 //! Triangulations of space against their definition, and each other.
 
-use delone::space::verify::{Objection3, verify};
+use delone::verify::{Objection3, verify3};
 use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate, Regular3, VertexId};
 use delone_generators::{Kind3, Random};
 use delone_oracle::{all_cases, brute};
@@ -198,7 +198,7 @@ fn verdicts_on_tetrahedra_from_elsewhere() {
         let d = Delaunay3::from_points(&points).expect("finite");
         let right: Vec<[u64; 4]> = d.tetrahedra().map(|t| t.map(|v| v.index() as u64)).collect();
         let verdict =
-            verify(&points, &right).unwrap_or_else(|objection| panic!("{}: {objection}", kind.name()));
+            verify3(&points, &right).unwrap_or_else(|objection| panic!("{}: {objection}", kind.name()));
         assert!(verdict.is_canonical() && verdict.negative == 0, "{}", kind.name());
         assert_eq!(verdict.duplicates, d.duplicates().count(), "{}", kind.name());
         if right.is_empty() {
@@ -206,28 +206,28 @@ fn verdicts_on_tetrahedra_from_elsewhere() {
         }
         let mut turned = right.clone();
         turned[0].swap(1, 2);
-        assert_eq!(verify(&points, &turned).map(|v| v.negative), Ok(1));
+        assert_eq!(verify3(&points, &turned).map(|v| v.negative), Ok(1));
         let without = &right[1..];
-        assert!(verify(&points, without).is_err(), "{}: one is missing", kind.name());
+        assert!(verify3(&points, without).is_err(), "{}: one is missing", kind.name());
         let twice = [right.clone(), vec![right[0]]].concat();
-        assert!(matches!(verify(&points, &twice), Err(Objection3::Overlap(..))));
+        assert!(matches!(verify3(&points, &twice), Err(Objection3::Overlap(..))));
         let mut beyond = right.clone();
         beyond[3][2] = 300;
         assert!(matches!(
-            verify(&points, &beyond),
+            verify3(&points, &beyond),
             Err(Objection3::Index { tetrahedron: 3, corner: 300, .. })
         ));
         let mut flat = right.clone();
         flat[2][0] = flat[2][1];
-        assert_eq!(verify(&points, &flat), Err(Objection3::Flat(2)));
+        assert_eq!(verify3(&points, &flat), Err(Objection3::Flat(2)));
         // Of other points they are not Delaunay, or no triangulation.
         let moved = Kind3::Cube.points(300, 9);
-        assert!(verify(&moved, &right).is_err());
+        assert!(verify3(&moved, &right).is_err());
     }
     // A cube cut in another way than the canonical one.
     let cube: Points = (0..8_u32).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
     let five = [[0, 1, 2, 4], [3, 2, 1, 7], [5, 4, 7, 1], [6, 7, 4, 2], [1, 2, 4, 7]];
-    let verdict = verify(&cube, &five).expect("Delaunay");
+    let verdict = verify3(&cube, &five).expect("Delaunay");
     assert!(!verdict.is_canonical());
     assert_eq!(verdict.hull, 12);
     // Two heaps that do not touch.
@@ -235,6 +235,6 @@ fn verdicts_on_tetrahedra_from_elsewhere() {
         .map(|i| if i < 4 { cube[i as usize] } else { cube[i as usize].map(|x| x + 9.0) })
         .collect();
     let heaps = [[0, 1, 2, 4], [4, 5, 6, 7]];
-    assert!(verify(&apart, &heaps).is_err());
-    assert_eq!(verify(&cube, &[]), Err(Objection3::Missing(4)));
+    assert!(verify3(&apart, &heaps).is_err());
+    assert_eq!(verify3(&cube, &[]), Err(Objection3::Missing(4)));
 }

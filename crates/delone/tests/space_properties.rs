@@ -1,6 +1,6 @@
 //! Properties over hostile small sets in space, with shrinking: whatever fails, fails small.
 
-use delone::space::verify::verify;
+use delone::verify::verify3;
 use delone::{Delaunay3, Dimension, VertexId};
 use delone_oracle::brute;
 use proptest::prelude::*;
@@ -40,7 +40,7 @@ proptest! {
         prop_assert_eq!(d.check(), Ok(()));
         prop_assert_eq!(tetrahedra(&d), brute::delaunay3(&points));
         let written: Vec<[u64; 4]> = d.tetrahedra().map(|t| t.map(|v| v.index() as u64)).collect();
-        let verdict = verify(&points, &written);
+        let verdict = verify3(&points, &written);
         prop_assert!(verdict.is_ok_and(|verdict| verdict.is_canonical()), "{:?}", verdict);
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::plane::verify::verify;
+use delone::verify::verify2;
 use delone::{Algorithm2, Delaunay2, Locate};
 use delone_generators::{Kind, Random};
 use delone_oracle::brute;
@@ -31,7 +31,7 @@ fn endure(name: &str, points: &[[f64; 2]]) {
                 .unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(d.check(), Ok(()), "{name} {algorithm:?}");
             let bare: Vec<_> = d.triangles().map(|t| t.map(|v| v.index() as u64)).collect();
-            let verdict = verify(points, &bare).unwrap_or_else(|objection| panic!("{name}: {objection}"));
+            let verdict = verify2(points, &bare).unwrap_or_else(|objection| panic!("{name}: {objection}"));
             assert!(verdict.is_canonical(), "{name} {algorithm:?}");
             let found = triangles(&d);
             assert!(*expected.get_or_insert(found.clone()) == found, "{name} {algorithm:?}");

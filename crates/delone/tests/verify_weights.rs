@@ -1,8 +1,7 @@
 //! Verdicts on simplices of points with weights: ties that others break in another way are right, other differences are not.
 
-use delone::plane::verify::Objection2;
-use delone::space::verify::Objection3;
-use delone::{Regular2, Regular3, Verdict, plane, space};
+use delone::verify::{self, Objection2, Objection3};
+use delone::{Regular2, Regular3, Verdict};
 use delone_generators::Random;
 
 /// Sites on a lattice, with weights that tie or nearly tie them all.
@@ -48,16 +47,16 @@ fn other_ties_are_right_and_all_else_is_not() {
     for _ in 0..400 {
         let (points, weights) = sites::<2>(&mut random, 12);
         let own = triangles(&points, &weights);
-        let verdict = plane::verify::verify_weighted(&points, &weights, &own).expect("ours");
+        let verdict = verify::verify_weighted2(&points, &weights, &own).expect("ours");
         assert!(verdict.is_canonical());
         let mirror = triangles(&mirrored(&points), &weights);
-        let verdict = plane::verify::verify_weighted(&points, &weights, &mirror).expect("with other ties");
+        let verdict = verify::verify_weighted2(&points, &weights, &mirror).expect("with other ties");
         assert!(verdict.negative == mirror.len(), "{verdict:?}");
         others[0] += usize::from(!verdict.is_canonical());
         // With other weights.
         let mut changed = weights.clone();
         changed[random.below(12)] += 1.5;
-        let found = plane::verify::verify_weighted(&points, &changed, &own);
+        let found = verify::verify_weighted2(&points, &changed, &own);
         let is_canonical = found.as_ref().is_ok_and(Verdict::is_canonical);
         assert_eq!(is_canonical, as_sets(&own) == as_sets(&triangles(&points, &changed)), "{found:?}");
         objections[0] +=
@@ -65,14 +64,14 @@ fn other_ties_are_right_and_all_else_is_not() {
 
         let (points, weights) = sites::<3>(&mut random, 12);
         let own = tetrahedra(&points, &weights);
-        let verdict = space::verify::verify_weighted(&points, &weights, &own).expect("ours");
+        let verdict = verify::verify_weighted3(&points, &weights, &own).expect("ours");
         assert!(verdict.is_canonical());
         let mirror = tetrahedra(&mirrored(&points), &weights);
-        let verdict = space::verify::verify_weighted(&points, &weights, &mirror).expect("with other ties");
+        let verdict = verify::verify_weighted3(&points, &weights, &mirror).expect("with other ties");
         others[1] += usize::from(!verdict.is_canonical());
         let mut changed = weights.clone();
         changed[random.below(12)] += 1.5;
-        let found = space::verify::verify_weighted(&points, &changed, &own);
+        let found = verify::verify_weighted3(&points, &changed, &own);
         let is_canonical = found.as_ref().is_ok_and(Verdict::is_canonical);
         assert_eq!(is_canonical, as_sets(&own) == as_sets(&tetrahedra(&points, &changed)), "{found:?}");
         objections[1] +=
@@ -101,9 +100,9 @@ fn what_is_folded_flat_is_no_triangulation() {
     ];
     let weights = points.map(|p| p.iter().map(|x| x * x).sum());
     let tetrahedra = [[2, 0, 3, 5], [2, 4, 3, 5], [4, 2, 5, 1]];
-    let found = space::verify::verify_weighted(&points, &weights, &tetrahedra);
+    let found = verify::verify_weighted3(&points, &weights, &tetrahedra);
     assert!(matches!(found, Err(Objection3::Dent(..))), "{found:?}");
-    assert!(space::verify::verify(&points, &tetrahedra).is_err());
+    assert!(verify::verify3(&points, &tetrahedra).is_err());
 }
 
 /// Eight tetrahedra of which one has a wrong corner: their border is convex at every edge, and winds around a vertex twice.
@@ -129,14 +128,14 @@ fn what_winds_twice_is_no_triangulation() {
         [1, 7, 4, 3],
         [1, 7, 6, 4],
     ];
-    assert!(space::verify::verify(&points, &tetrahedra).is_err());
-    assert!(space::verify::verify_weighted(&points, &[0.0; 8], &tetrahedra).is_err());
+    assert!(verify::verify3(&points, &tetrahedra).is_err());
+    assert!(verify::verify_weighted3(&points, &[0.0; 8], &tetrahedra).is_err());
 }
 
 #[test]
 fn equal_sites_and_bad_numbers_are_told_apart() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [0.0, 0.0]];
-    let verify = |weights: &[f64]| plane::verify::verify_weighted(&points, weights, &[[0, 1, 2]]);
+    let verify = |weights: &[f64]| verify::verify_weighted2(&points, weights, &[[0, 1, 2]]);
     assert_eq!(verify(&[0.5, 0.0, 0.0, 0.5, 0.0]).map(|verdict| verdict.duplicates), Ok(1));
     assert_eq!(verify(&[0.5, 0.0, 0.0, 0.75, 0.0]), Err(Objection2::Surfaces(3)));
     assert!(matches!(verify(&[0.0; 4]), Err(Objection2::Points(_))));

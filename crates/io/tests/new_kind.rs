@@ -1,7 +1,7 @@
 //! A kind of triangulation that this crate does not know is written, drawn and asked like those that it knows.
 
-use delone::mesh::Dimension;
-use delone::plane::check::Flaw2;
+use delone::Dimension;
+use delone::Flaw2;
 use delone::{
     Ask, Delaunay2, Delaunay3, Duplicate, Error, Found, Tally, TriangleId, Triangulation, VertexId, VertexMap,
 };

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use delone::mesh::Dimension;
+use delone::Dimension;
 use delone::{Constrained2, Domains2, Duplicate, TriangleId, Triangulation, VertexId};
 
 /// The inside of a triangulation.

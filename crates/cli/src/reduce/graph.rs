@@ -2,7 +2,7 @@
 
 use std::panic::{self, AssertUnwindSafe};
 
-use delone::plane::verify::verify_constrained;
+use delone::verify::verify_constrained2;
 use delone::{Constrained2, Crossings};
 use delone_io::{Cloud, Contents, Direction, Graph};
 
@@ -123,7 +123,7 @@ fn built(points: &Points, segments: &Segments, how: &str) -> Result<Vec<[[f64; 2
     }
     let pieces: Vec<[usize; 2]> = c.constraints().map(|ends| ends.map(|v| v.index())).collect();
     let corners: Vec<[u64; 3]> = c.triangles().map(|t| t.map(|v| v.index() as u64)).collect();
-    match verify_constrained(c.points(), &pieces, &corners) {
+    match verify_constrained2(c.points(), &pieces, &corners) {
         Err(objection) => return Err(format!("{how}{objection}")),
         Ok(verdict) if !verdict.is_canonical() => return Err(format!("{how}it is not canonical")),
         Ok(_) => {}

@@ -9,7 +9,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use delone::plane::verify::verify;
+use delone::verify::verify2;
 use delone::{Algorithm2, Delaunay2};
 use delone_io::{Format, TemporaryFolder};
 
@@ -155,7 +155,7 @@ fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<O
     }
     Ok(match files::simplices(&output, true, delone_io::read_triangles) {
         Err(_) => Some("the command writes no triangles".to_owned()),
-        Ok(triangles) => verify(points, &triangles).err().map(|objection| objection.to_string()),
+        Ok(triangles) => verify2(points, &triangles).err().map(|objection| objection.to_string()),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::plane::verify::{Objection2, verify, verify_weighted};
+use delone::verify::{Objection2, verify_weighted2, verify2};
 use delone::{Algorithm2, Counters, Delaunay2, Graph, Hints2, Regular2, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
@@ -107,8 +107,8 @@ impl Room for Delaunay2 {
         triangles: &[[u64; 3]],
     ) -> Result<Verdict, Objection> {
         let verdict = match weights {
-            Some(weights) => verify_weighted(points, weights, triangles),
-            None => verify(points, triangles),
+            Some(weights) => verify_weighted2(points, weights, triangles),
+            None => verify2(points, triangles),
         };
         verdict.map_err(|objection| match objection {
             Objection2::Points(error) => Objection::Points(error),

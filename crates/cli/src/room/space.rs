@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::space::verify::{Objection3, verify, verify_weighted};
+use delone::verify::{Objection3, verify_weighted3, verify3};
 use delone::{Algorithm3, Counters, Delaunay3, Graph, Hints3, Regular3, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
@@ -120,8 +120,8 @@ impl Room for Delaunay3 {
         tetrahedra: &[[u64; 4]],
     ) -> Result<Verdict, Objection> {
         let verdict = match weights {
-            Some(weights) => verify_weighted(points, weights, tetrahedra),
-            None => verify(points, tetrahedra),
+            Some(weights) => verify_weighted3(points, weights, tetrahedra),
+            None => verify3(points, tetrahedra),
         };
         verdict.map_err(|objection| match objection {
             Objection3::Points(error) => Objection::Points(error),

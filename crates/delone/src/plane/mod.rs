@@ -3,7 +3,7 @@
 mod alpha;
 mod around;
 mod change;
-pub mod check;
+pub(crate) mod check;
 mod constrained;
 mod construct;
 mod delaunay;
@@ -26,7 +26,7 @@ mod regular;
 #[cfg(feature = "histories")]
 mod stars;
 mod triangulation;
-pub mod verify;
+pub(crate) mod verify;
 #[cfg(feature = "histories")]
 mod versions;
 mod voronoi;

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::points::check_finite;
 use crate::sorting;
 use crate::verdict::Verdict;
-pub use weights::verify_weighted;
+pub use weights::verify_weighted2;
 
 /// Why triangles are not a Delaunay triangulation of the points. Triangles and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -89,8 +89,8 @@ pub enum Objection2 {
 }
 
 /// Judges `triangles`, corners as indices of `points`, in either orientation.
-pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection2> {
-    verify_constrained(points, &[], triangles)
+pub fn verify2(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection2> {
+    verify_constrained2(points, &[], triangles)
 }
 
 /// Judges whether `triangles`, all of the hull, are a constrained Delaunay triangulation of points and segments, which are given
@@ -102,16 +102,16 @@ pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Ob
 ///
 /// ```
 /// use delone::Constrained2;
-/// use delone::plane::verify::verify_constrained;
+/// use delone::verify::verify_constrained2;
 ///
 /// let points = [[0.0, 0.0], [8.0, 0.0], [4.0, 1.0], [4.0, -1.0]];
-/// let verdict = verify_constrained(&points, &[[0, 1]], &[[0, 1, 2], [0, 3, 1]])?;
+/// let verdict = verify_constrained2(&points, &[[0, 1]], &[[0, 1, 2], [0, 3, 1]])?;
 /// assert!(verdict.is_canonical());
-/// let objection = verify_constrained(&points, &[[0, 1]], &[[0, 3, 2], [3, 1, 2]]).unwrap_err();
+/// let objection = verify_constrained2(&points, &[[0, 1]], &[[0, 3, 2], [3, 1, 2]]).unwrap_err();
 /// assert_eq!(objection.to_string(), "segment 0 is missing: from point 0 on no edge runs along it");
-/// # Ok::<(), delone::plane::verify::Objection2>(())
+/// # Ok::<(), delone::verify::Objection2>(())
 /// ```
-pub fn verify_constrained(
+pub fn verify_constrained2(
     points: &[[f64; 2]],
     segments: &[[usize; 2]],
     triangles: &[[u64; 3]],

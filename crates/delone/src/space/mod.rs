@@ -3,7 +3,7 @@
 mod alpha;
 mod around;
 mod change;
-pub mod check;
+pub(crate) mod check;
 mod construct;
 mod delaunay;
 mod graphs;
@@ -15,7 +15,7 @@ mod moving;
 mod nearest;
 mod regular;
 mod triangulation;
-pub mod verify;
+pub(crate) mod verify;
 
 pub(crate) use construct::{InOrder3, in_order};
 pub use delaunay::{Algorithm3, Delaunay3};

@@ -18,7 +18,7 @@ use crate::points::check_in_space;
 use crate::sorting;
 use crate::space::check::goes_once;
 use crate::verdict::Verdict;
-pub use weights::verify_weighted;
+pub use weights::verify_weighted3;
 
 /// Why tetrahedra are not a Delaunay triangulation of the points. Tetrahedra and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -92,7 +92,7 @@ pub enum Objection3 {
 type Side = ([usize; 3], bool, usize, usize);
 
 /// Judges `tetrahedra`, corners as indices of `points`, in either order.
-pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, Objection3> {
+pub fn verify3(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, Objection3> {
     check_in_space(points)?;
     let (tetrahedra, negative) = oriented(points, tetrahedra)?;
     let duplicates = check_coverage(points, &tetrahedra)?;

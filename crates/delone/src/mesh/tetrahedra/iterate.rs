@@ -119,7 +119,7 @@ mod tests {
         let cube = |n: usize| {
             (0..n).map(|i| [i * 7919 % 97, i * 104_729 % 89, i * 1_299_709 % 83].map(|x| x as f64)).collect()
         };
-        let grid = (0..27).map(|i| [i % 3, i / 3 % 3, i / 9].map(|x| f64::from(x))).collect();
+        let grid = (0..27).map(|i| [i % 3, i / 3 % 3, i / 9].map(f64::from)).collect();
         let sets: [Vec<[f64; 3]>; 3] = [cube(5), cube(60), grid];
         sets.into_iter()
             .map(|points| (points.clone(), Delaunay3::from_points(&points).expect("points")))

@@ -23,15 +23,15 @@ use crate::verdict::Verdict;
 /// The first objection; [`Objection2::Points`] for numbers that are not finite, and unless there is a weight for each point.
 ///
 /// ```
-/// use delone::plane::verify::verify_weighted;
+/// use delone::verify::verify_weighted2;
 ///
 /// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0]];
 /// let triangles = [[0, 1, 2], [0, 2, 3]];
-/// assert!(verify_weighted(&points, &[9.0, 9.0, 9.0, 9.0, 0.5], &triangles).is_ok());
-/// let objection = verify_weighted(&points, &[9.0, 9.0, 9.0, 9.0, 3.0], &triangles).unwrap_err();
+/// assert!(verify_weighted2(&points, &[9.0, 9.0, 9.0, 9.0, 0.5], &triangles).is_ok());
+/// let objection = verify_weighted2(&points, &[9.0, 9.0, 9.0, 9.0, 3.0], &triangles).unwrap_err();
 /// assert_eq!(objection.to_string(), "point 4 is not a corner of any triangle, and the others do not hide it");
 /// ```
-pub fn verify_weighted(
+pub fn verify_weighted2(
     points: &[[f64; 2]],
     weights: &[f64],
     triangles: &[[u64; 3]],

@@ -20,14 +20,14 @@ use crate::verdict::Verdict;
 /// The first objection; [`Objection3::Points`] for numbers that are not finite, and unless there is a weight for each point.
 ///
 /// ```
-/// use delone::space::verify::verify_weighted;
+/// use delone::verify::verify_weighted3;
 ///
 /// let points = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0], [1.0, 1.0, 1.0]];
-/// assert!(verify_weighted(&points, &[12.0, 12.0, 12.0, 12.0, 0.5], &[[0, 1, 2, 3]]).is_ok());
-/// let objection = verify_weighted(&points, &[12.0, 12.0, 12.0, 12.0, 11.0], &[[0, 1, 2, 3]]).unwrap_err();
+/// assert!(verify_weighted3(&points, &[12.0, 12.0, 12.0, 12.0, 0.5], &[[0, 1, 2, 3]]).is_ok());
+/// let objection = verify_weighted3(&points, &[12.0, 12.0, 12.0, 12.0, 11.0], &[[0, 1, 2, 3]]).unwrap_err();
 /// assert_eq!(objection.to_string(), "point 4 is not a corner of any tetrahedron, and the others do not hide it");
 /// ```
-pub fn verify_weighted(
+pub fn verify_weighted3(
     points: &[[f64; 3]],
     weights: &[f64],
     tetrahedra: &[[u64; 4]],
