@@ -232,7 +232,25 @@ fn files_beside_a_raster_are_read() {
     assert_eq!(system("other.tif"), epsg(31467));
     write("other.tif.aux.xml", "<PAMDataset><SRS>EPSG:25833</SRS></PAMDataset>");
     assert_eq!(system("other.tif"), epsg(25833));
-    // What is not understood is told.
+    // What is not understood or not read is told.
+    let told = |name: &str| text(&place.run(&format!("contours {name} --interval 1 -o c.geojson")).stderr);
+    let place_and_nodata = "<GeoTransform>0,1,0,0,0,-1</GeoTransform><PAMRasterBand band=\"1\"><NoDataValue>3</NoDataValue></PAMRasterBand>";
+    write("dem.tif.aux.xml", &format!("<PAMDataset>{place_and_nodata}</PAMDataset>"));
+    for what in ["the place of the raster is not read", "the number for no data is not read"] {
+        assert!(told("dem.tif").contains(&format!("dem.tif.aux.xml: {what}")), "{}", told("dem.tif"));
+    }
+    write("dem.tif.aux.xml", &" ".repeat(17 << 20));
+    assert!(told("dem.tif").contains("dem.tif.aux.xml: it is not read, because it is longer"));
+    // A world file is for rasters that do not say where they are.
+    write("far.csv", "x,y,z\n90,0,1\n99,0,2\n90,9,3\n99,9,4\n");
+    place.succeed("-q dtm far.csv --cell 1 -o far.tif");
+    write("far.tfw", "10\n0\n0\n-10\n5\n-5\n");
+    assert!(!told("far.tif").contains("far.tfw"), "{}", told("far.tif"));
+    let mut bytes = fs::read(place.path("far.tif")).expect("a raster");
+    let scale = bytes.windows(4).position(|word| word == [0x0e, 0x83, 12, 0]).expect("the tag of the scale");
+    bytes[scale] += 1;
+    fs::write(place.path("far.tif"), bytes).expect("a file");
+    assert!(told("far.tif").contains("far.tfw: the place of the raster is not read"), "{}", told("far.tif"));
     write("dem.prj", "Projection UTM\nZone 32\n");
     write("dem.tif.aux.xml", "<PAMDataset><SRS>");
     for (name, what) in [("dem.asc", "dem.prj: its system"), ("dem.tif", "dem.tif.aux.xml: XML")] {

@@ -186,7 +186,7 @@ impl Table {
     /// assert!(table.has_infinities());
     /// ```
     pub fn has_infinities(&self) -> bool {
-        self.text.contains(BEYOND) && (0..self.ends.len()).any(|cell| is_infinite(self.cell(cell)))
+        (0..self.ends.len()).any(|cell| is_infinite(self.cell(cell)))
     }
 
     fn cell(&self, cell: usize) -> &str {
@@ -387,9 +387,11 @@ impl<'a> Value<'a> {
 const BEYOND: &str = "1e999";
 const MINUS_BEYOND: &str = "-1e999";
 
-/// Whether a value as JSON is one of the infinities.
+/// Whether a value as JSON is a number that is rounded to one of the infinities; without an exponent these have many digits.
 pub(crate) fn is_infinite(cell: &str) -> bool {
-    cell == BEYOND || cell == MINUS_BEYOND
+    let may_be =
+        !cell.starts_with('"') && (cell.len() > f64::MAX_10_EXP as usize || cell.contains(['e', 'E']));
+    may_be && cell.parse().is_ok_and(f64::is_infinite)
 }
 
 /// A name with the least number from 2 after it that nothing has.

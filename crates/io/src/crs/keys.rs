@@ -23,7 +23,8 @@ const TEXTS: u16 = 34_737;
 /// The key's value for a system without a number.
 const OWN: u16 = 32_767;
 
-/// The system that keys name, entries of four numbers after a head of four. A projected system wins over a geographic one.
+/// The system that keys name, entries of four numbers after a head of four. A projected system wins over a geographic one, which is the base
+/// of it: where the projected one has no number, neither has the system.
 pub(crate) fn decode(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Crs> {
     let number = |key| {
         let found = entry(numbers, key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != OWN);
@@ -36,12 +37,14 @@ pub(crate) fn decode(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<C
         let text = text.trim_matches(['\0', '|', ' ']);
         (!text.is_empty()).then(|| text.to_owned())
     };
-    let epsg = number(PROJECTED).or_else(|| number(GEOGRAPHIC));
-    let name = [PROJECTED_NAME, NAME, GEOGRAPHIC_NAME].into_iter().find_map(name);
     let model = entry(numbers, MODEL).map(|e| e[3]);
-    let is_geographic = match (number(PROJECTED), number(GEOGRAPHIC), model) {
-        (Some(_), _, _) | (None, None, Some(1)) => Some(false),
-        (None, Some(_), _) | (None, None, Some(2)) => Some(true),
+    let is_projected = entry(numbers, PROJECTED).is_some() || model == Some(1);
+    let geographic = number(GEOGRAPHIC).filter(|_| !is_projected);
+    let epsg = number(PROJECTED).or(geographic);
+    let name = [PROJECTED_NAME, NAME, GEOGRAPHIC_NAME].into_iter().find_map(name);
+    let is_geographic = match (is_projected, geographic, model) {
+        (true, _, _) => Some(false),
+        (false, Some(_), _) | (false, None, Some(2)) => Some(true),
         _ => None,
     };
     let vertical = number(VERTICAL);
@@ -229,6 +232,19 @@ mod tests {
         let numbers = [1, 1, 0, 3, 2048, 0, 1, 4258, 3072, 0, 1, 25832, 4096, 0, 1, 5783];
         let crs = decode(&numbers, &[], &[]).expect("a system");
         assert_eq!((crs.epsg, crs.vertical, crs.is_geographic), (Some(25832), Some(5783), Some(false)));
+    }
+
+    /// As GDAL writes Albers' projection of the United States, ESRI:102003.
+    #[test]
+    fn the_base_of_a_projected_system_is_not_the_system() {
+        let numbers = [
+            1, 1, 0, 6, 1024, 0, 1, 1, 1026, 34737, 7, 0, 2048, 0, 1, 4269, 3072, 0, 1, 32767, 3075, 0, 1,
+            11, 3078, 34736, 1, 0,
+        ];
+        let crs = decode(&numbers, &[29.5], b"Albers|").expect("a system");
+        assert_eq!((crs.epsg, crs.name.as_deref(), crs.is_geographic), (None, Some("Albers"), Some(false)));
+        let keys = encode(Some(&crs));
+        assert!(keys.are_complete && keys.doubles == [29.5]);
     }
 
     #[test]

@@ -10,10 +10,15 @@ use delone::surface::Grid;
 
 use crate::crs::esri;
 use crate::crs::keys::encode;
-use crate::{Crs, Error, Format};
+use crate::{Crs, Error, Format, Raster, open_as, read_raster_place};
 
 /// The end of the name of GDAL's file beside another one.
 const PAM: &str = ".aux.xml";
+/// The ends of names of world files beside a GeoTIFF.
+const WORLD: [&str; 3] = ["tfw", "tifw", "wld"];
+/// Elements of GDAL's file that go before what a GeoTIFF says, and are not read.
+const NOT_READ: [(&str, &str); 2] =
+    [("GeoTransform", "the place of the raster"), ("NoDataValue", "the number for no data")];
 /// Bytes of a file beside a raster that is read: a `.prj` has a kilobyte, GDAL's file some, with statistics and metadata.
 const LONGEST_SIDE: u64 = 16 << 20;
 
@@ -86,7 +91,7 @@ pub fn crs_of_side(side: &Path, text: &str) -> Result<Option<Crs>, Error> {
 }
 
 /// Replaces the system of a raster by that of a file beside it, as GDAL does: GDAL's own file goes before what a GeoTIFF says, and a `.prj`
-/// stands for what an ASCII grid cannot say. Other formats have none. Returns what is not understood, with the names of the files.
+/// stands for what an ASCII grid cannot say. Other formats have none. Returns what is not understood or not read, with the names of the files.
 ///
 /// ```
 /// use std::path::Path;
@@ -111,13 +116,18 @@ pub fn heed_sides(crs: &mut Option<Crs>, path: &Path) -> Vec<String> {
             Some("prj") => crs.is_none(),
             _ => false,
         };
-        let is_short =
-            || fs::metadata(&side).is_ok_and(|about| about.is_file() && about.len() <= LONGEST_SIDE);
-        if !is_read || !is_short() {
+        let Some(about) = fs::metadata(&side).ok().filter(|about| is_read && about.is_file()) else {
+            continue;
+        };
+        if about.len() > LONGEST_SIDE {
+            losses.push(format!("{}: it is not read, because it is longer than 16 MiB", side.display()));
             continue;
         }
-        let text = fs::read(&side).map_err(Error::from);
-        match text.and_then(|text| crs_of_side(&side, &String::from_utf8_lossy(&text))) {
+        let text = fs::read(&side).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        if format == Format::Tiff {
+            losses.extend(text.iter().flat_map(|text| not_read(&side, text)));
+        }
+        match text.map_err(Error::from).and_then(|text| crs_of_side(&side, &text)) {
             // Keys that define the system of the file go along where the other name is for the same.
             Ok(Some(other)) => {
                 let keys = crs.take().filter(|own| own.epsg == other.epsg).and_then(|own| own.keys);
@@ -127,7 +137,28 @@ pub fn heed_sides(crs: &mut Option<Crs>, path: &Path) -> Vec<String> {
             Err(error) => losses.push(format!("{}: {error}", side.display())),
         }
     }
+    let mut worlds = WORLD.iter().map(|end| path.with_extension(end));
+    if format == Format::Tiff
+        && let Some(world) = worlds.find(|world| world.is_file())
+        && is_nowhere(path)
+    {
+        losses.push(format!("{}: the place of the raster is not read", world.display()));
+    }
     losses
+}
+
+/// What a file of GDAL says of a raster besides its system, and is not read.
+fn not_read(side: &Path, text: &str) -> Vec<String> {
+    let Ok(document) = crate::xml::parse(text) else { return Vec::new() };
+    let is_there = |name: &str| document.descendants().any(|node| node.has_tag_name(name));
+    let found = NOT_READ.iter().filter(|entry| is_there(entry.0));
+    found.map(|(name, what)| format!("{}: {what} is not read ({name})", side.display())).collect()
+}
+
+/// Whether a GeoTIFF does not say where it is.
+fn is_nowhere(path: &Path) -> bool {
+    let place = open_as(path, Format::Tiff).and_then(|source| read_raster_place(source, Format::Tiff));
+    place.is_ok_and(|(grid, _)| Raster::nowhere(grid.columns(), grid.rows()).is_ok_and(|none| none == grid))
 }
 
 /// Where the pixels of a picture are, in six lines: the size of a pixel to the east, two of rotation, the size of a pixel to the next row, and

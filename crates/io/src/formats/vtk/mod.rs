@@ -34,14 +34,14 @@ pub(crate) fn read_xml_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
     graph(xml::read, source)
 }
 
-/// Whether there is a line in a legacy file.
+/// Whether there is a line in a legacy file, or cells that are not understood, which the reader of lines tells.
 pub(crate) fn has_legacy_lines(source: Box<dyn Source>) -> bool {
-    legacy::read(source, true).is_ok_and(|(_, cells)| cells.has_lines())
+    legacy::read(source, true).map_or(true, |(_, cells)| cells.has_lines())
 }
 
-/// Whether there is a line in an XML file.
+/// Whether there is a line in an XML file, or cells that are not understood.
 pub(crate) fn has_xml_lines(source: Box<dyn Source>) -> bool {
-    xml::read(source, true).is_ok_and(|(_, cells)| cells.has_lines())
+    xml::read(source, true).map_or(true, |(_, cells)| cells.has_lines())
 }
 
 /// Reads the triangles (N = 3) or tetrahedra (N = 4) of a legacy file, as indices of the points.

@@ -1,8 +1,8 @@
 use std::io::Cursor;
 
 use super::{
-    has_xml_lines, read_legacy, read_legacy_graph, read_legacy_simplices, read_xml, read_xml_graph,
-    read_xml_simplices,
+    has_legacy_lines, has_xml_lines, read_legacy, read_legacy_graph, read_legacy_simplices, read_xml,
+    read_xml_graph, read_xml_simplices,
 };
 use crate::{Cloud, Source};
 
@@ -182,4 +182,13 @@ fn strings_of_a_field_are_passed_over() {
     for end in 100..binary.len() {
         assert!(read_legacy(source(&binary[..end])).is_err(), "{end}");
     }
+}
+
+/// Points alone would be read without a word of the lines.
+#[test]
+fn broken_lines_are_for_the_reader_of_lines() {
+    let text = "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4 5 6\n\
+                LINES 2 2\nOFFSETS vtkIdType\n0 2\nCONNECTIVITY vtkIdType\n0 9\n";
+    assert!(has_legacy_lines(source(text.as_bytes())));
+    assert!(read_legacy_graph(source(text.as_bytes())).is_err());
 }
