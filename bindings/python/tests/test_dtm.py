@@ -201,3 +201,87 @@ def test_refusals(tmp_path):
         with pytest.raises(kind, match=words):
             delone.dtm(**{"points": points, **wanted})
     assert list(tmp_path.iterdir()) == [line]
+
+
+@pytest.mark.parametrize(
+    ("wishes", "error", "words"),
+    [
+        ({"epsg": -1}, ValueError, "epsg must be an integer from 1"),
+        ({"epsg": 2**40}, ValueError, "epsg must be an integer from 1"),
+        ({"output": []}, ValueError, "output must be a path"),
+        ({"output": ["a.tif", "./a.tif"]}, ValueError, "a.tif twice"),
+        ({"nodata": 0.0}, ValueError, "give output too"),
+        ({"interval": 5.0}, ValueError, "give output too"),
+        ({"classes": [2]}, ValueError, "of files"),
+        ({"columns": ["x", "y", "z"]}, ValueError, "of files"),
+        ({"origin": (1.0,)}, ValueError, "origin must be x and y"),
+        ({"extent": "0011"}, ValueError, "extent must be"),
+        ({"clip": {"type": "Point", "coordinates": [1, 2]}}, ValueError, "clip must be polygons"),
+        ({"flat": {"type": "LineString", "coordinates": [[1, 2], [3, 4]]}}, ValueError, "flat must be polygons"),
+        ({"clip": {"type": "Polygon", "coordinates": []}}, ValueError, "clip must be polygons"),
+        ({"breaklines": {"type": "LineString", "coordinates": [[1, np.nan], [3, 4]]}}, ValueError, "breaklines: .* neither NaN"),
+    ],
+)
+def test_arguments_that_are_wrong_are_named(tmp_path, monkeypatch, wishes, error, words):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(error, match=words):
+        delone.dtm(survey(50), cell=5.0, **wishes)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("wishes", "error", "words"),
+    [
+        ({"classes": [300]}, ValueError, "a class must be an integer from 0 to 255"),
+        ({"classes": [2], "all_classes": True}, ValueError, "not both"),
+        ({"memory": -1}, ValueError, "memory must be an integer from 1"),
+        ({"memory": "9" * 400 + "T"}, ValueError, "memory must be a number of bytes"),
+        ({"columns": "xyz"}, TypeError, "columns must be names"),
+        ({"columns": [1, 2, 3]}, TypeError, "columns must be names"),
+    ],
+)
+def test_arguments_of_files_that_are_wrong_are_named(tmp_path, wishes, error, words):
+    write_text(tmp_path / "points.csv", survey(50))
+    with pytest.raises(error, match=words):
+        delone.dtm(tmp_path / "points.csv", cell=5.0, **wishes)
+    wrong = {key: value for key, value in wishes.items() if key != "all_classes"}
+    if len(wrong) == len(wishes):
+        with pytest.raises(error, match=words):
+            delone.tiles.build(tmp_path / "points.csv", tmp_path / "tiles", **wishes)
+    assert [path.name for path in tmp_path.iterdir()] == ["points.csv"]
+
+
+def test_paths_may_be_of_any_kind_of_list(tmp_path):
+    write_text(tmp_path / "points.csv", survey(50))
+    path = tmp_path / "points.csv"
+    expected = delone.dtm(path, cell=5.0)[0]
+    for paths in ({path}, (one for one in [path]), np.array([str(path)]), np.array([path], dtype=object)):
+        assert same(delone.dtm(paths, cell=5.0)[0], expected)
+    assert same(delone.dtm(path, cell=5.0, classes=np.array([2, 9]), columns=np.array(["x", "y", "z"]))[0], expected)
+
+
+def test_systems_of_geometries_are_compared(tmp_path):
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    area = geopandas.GeoDataFrame(geometry=[shapely.geometry.shape(AREA)], crs=25832)
+    points = survey(200)
+    clipped = delone.dtm(points, cell=5.0, epsg=25832, clip=area)[0]
+    assert same(clipped, delone.dtm(points, cell=5.0, clip=AREA)[0])
+    for wishes in ({"clip": area}, {"flat": area.geometry}, {"breaklines": area.boundary}):
+        with pytest.raises(ValueError, match=r"EPSG:25832.* EPSG:2056"):
+            delone.dtm(points, cell=5.0, epsg=2056, **wishes)
+    # A ring of shapely is a polygon where polygons are wanted, and a line where lines are.
+    ring = shapely.LinearRing(AREA["coordinates"][0])
+    assert same(delone.dtm(points, cell=5.0, clip=ring)[0], clipped)
+    line = delone.dtm(points, cell=5.0, breaklines=shapely.LineString(ring.coords))[0]
+    assert same(delone.dtm(points, cell=5.0, breaklines=ring)[0], line)
+
+
+def test_points_may_be_geometries_with_heights():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    points = survey(200)
+    expected = delone.dtm(points, cell=5.0)[0]
+    sites = geopandas.GeoSeries(shapely.points(points))
+    for given in (sites, geopandas.GeoDataFrame(geometry=sites), shapely.MultiPoint(points)):
+        assert same(delone.dtm(given, cell=5.0)[0], expected)

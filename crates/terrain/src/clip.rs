@@ -83,7 +83,7 @@ impl Clip {
         self.crs.as_ref()
     }
 
-    /// Takes the values of cells outside of all polygons: they become NaN.
+    /// Replaces the values of cells outside of all polygons by NaN.
     pub fn apply(&self, grid: &Grid, values: &mut [f64]) {
         let columns = grid.columns();
         // How many polygons begin at a column, less those that end there.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from numbers import Number
 from typing import Any, Literal, TypedDict, overload
 
@@ -13,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._geometries import as_mapping, column_of
-from ._points import as_choice, as_flag, as_index, as_numbers, as_points
-from ._store import as_bytes
+from ._geometries import as_mapping, column_of, geometry_type, system_of
+from ._points import as_choice, as_flag, as_names, as_number_in, as_numbers, as_points
+from ._store import as_bytes, as_classes
 from ._terrain import Rule, Transform, as_heights, as_longest
 
 Path = str | os.PathLike[str]
@@ -149,7 +150,8 @@ def dtm(
         Triangles with a longer edge are left out: from the hull inwards, or wherever they are.
     breaklines : paths or geometries, optional
         Lines that must be edges, with their own heights or, without, those of the surface below. A geometry is an array of shape
-        (k, 2) or (k, 3), one of shapely or geopandas, or a mapping of GeoJSON; lists of all these are taken.
+        (k, 2) or (k, 3), one of shapely or geopandas, or a mapping of GeoJSON; lists of all these are taken. The systems of files
+        and of geopandas, by their numbers, are compared with that of the points.
     flat : paths or geometries, optional
         Polygons that are level, water say: at the one height that they have, or at the lowest of the surface along their border.
         An array is a ring.
@@ -193,6 +195,14 @@ def dtm(
         raise ValueError(f"interval must be positive, not {interval!r}")
     if cell is not None and like is not None:
         raise ValueError("give cell or like, not both")
+    points = _listed(points)
+    is_path, classes = _is_path(points), as_classes(classes)
+    if output is None and (nodata is not None or interval is not None):
+        raise ValueError("nodata and interval are of files: give output too")
+    if not is_path and (classes or all_classes or len(columns) > 0):
+        raise ValueError("classes and columns are of files, and the points are an array")
+    if classes and all_classes:
+        raise ValueError("give classes or all_classes, not both")
     wanted: Wanted = {
         "cell": None if cell is None else float(cell),
         "extent": None if extent is None else _extent(extent),
@@ -204,19 +214,19 @@ def dtm(
         "breaklines": list(_shapes(breaklines, "breaklines", "LineString")),
         "flat": list(_shapes(flat, "flat", "Polygon")),
         "clip": list(_shapes(clip, "clip", "Polygon")),
-        "classes": [as_index(one, "a class") for one in classes or ()],
+        "classes": classes,
         "all_classes": as_flag(all_classes, "all_classes"),
-        "columns": list(columns),
-        "output": [] if output is None else _paths(output),
+        "columns": as_names(columns, "columns"),
+        "output": [] if output is None else _outputs(output),
         "nodata": None if nodata is None else float(nodata),
         "compress": as_choice(compress, ("deflate", "lzw", "none"), "compress"),
         "interval": None if interval is None else float(interval),
-        "epsg": None if epsg is None else as_index(epsg, "epsg"),
+        "epsg": None if epsg is None else as_number_in(epsg, "epsg", 1, 2**32 - 1),
         "memory": None if memory is None else as_bytes(memory),
     }
-    if memory is not None and (not _is_path(points) or wanted["breaklines"] or wanted["flat"]):
+    if memory is not None and (not is_path or wanted["breaklines"] or wanted["flat"]):
         raise ValueError("memory is for points of files, without breaklines and level polygons")
-    if _is_path(points):
+    if is_path:
         if z is not None:
             raise ValueError("the heights of files are in them: leave z out")
         given, paths = None, _paths(points)  # type: ignore[arg-type]
@@ -231,11 +241,42 @@ def dtm(
 
 
 def _with_heights(points: ArrayLike, z: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    if z is None and (positions := _in_space(points)) is not None:
+        points = positions
     if z is not None:
         at = as_points(points, columns=2)
         return at, as_heights(z, len(at))
     array = as_points(points, columns=3)
     return np.ascontiguousarray(array[:, :2]), np.ascontiguousarray(array[:, 2])
+
+
+def _in_space(points: Any) -> NDArray[np.float64] | None:
+    """The positions of geometries that have heights, a row each; None for what is no geometry."""
+    kind = geometry_type()
+    column = column_of(points)
+    if kind is None or not (isinstance(column, kind) or hasattr(column, "geom_type")):
+        return None
+    shapely = sys.modules["shapely"]
+    found: NDArray[np.float64] = shapely.get_coordinates(np.asarray(column, dtype=object), include_z=True)
+    return found
+
+
+def _listed(points: Any) -> Any:
+    """Paths of a set, of a generator or of an array as a list of them; other things as they are."""
+    if isinstance(points, (Iterator, Set)):
+        return list(points)
+    return points.tolist() if isinstance(points, np.ndarray) and points.dtype.kind in "UO" and points.ndim == 1 else points
+
+
+def _outputs(output: Path | Iterable[Path]) -> list[str]:
+    paths = _paths(output)
+    if not paths:
+        raise ValueError("output must be a path or several; leave it out for an array")
+    absolute = [os.path.abspath(path) for path in paths]
+    for number, path in enumerate(absolute):
+        if path in absolute[:number]:
+            raise ValueError(f"output has {paths[number]} twice")
+    return paths
 
 
 def _is_path(given: Any) -> bool:
@@ -250,15 +291,17 @@ def _paths(given: Path | Iterable[Path]) -> list[str]:
 
 
 def _extent(extent: Sequence[float]) -> tuple[float, float, float, float]:
-    numbers = [float(x) for x in extent]
+    numbers = [] if isinstance(extent, str) else [float(x) for x in extent]
     if len(numbers) != 4 or not (numbers[0] < numbers[2] and numbers[1] < numbers[3]) or not np.isfinite(numbers).all():
         raise ValueError(f"extent must be the least x and y, and then the largest ones; not {extent!r}")
     return numbers[0], numbers[1], numbers[2], numbers[3]
 
 
 def _pair(origin: Sequence[float]) -> tuple[float, float]:
-    x, y = (float(x) for x in origin)
-    return x, y
+    numbers = [] if isinstance(origin, str) else [float(x) for x in origin]
+    if len(numbers) != 2 or not np.isfinite(numbers).all():
+        raise ValueError(f"origin must be x and y, not {origin!r}")
+    return numbers[0], numbers[1]
 
 
 def _shapes(given: Any, what: str, kind: str) -> Iterable[_Shapes]:
@@ -269,16 +312,45 @@ def _shapes(given: Any, what: str, kind: str) -> Iterable[_Shapes]:
         yield False, os.fspath(given)
         return
     mapping = as_mapping(column_of(given))
+    if mapping is None and _is_rows(given):
+        mapping = _geometry(as_numbers(given, what), what, kind)
     if mapping is not None:
-        yield True, json.dumps(mapping, allow_nan=False, default=_plain)
-        return
-    if _is_rows(given):
-        yield True, json.dumps(_geometry(as_numbers(given, what), what, kind), allow_nan=False)
+        yield True, _text(mapping, system_of(given), what, kind)
         return
     if not isinstance(given, (list, tuple, np.ndarray)):
         raise TypeError(f"{what} must be paths or geometries, not {given!r}")
     for one in given:
         yield from _shapes(one, what, kind)
+
+
+def _text(mapping: Mapping[str, Any], system: Any, what: str, kind: str) -> str:
+    """GeoJSON of geometries, with their system where they name one by its number."""
+    if mapping.get("type") == "LinearRing":
+        ring = mapping["coordinates"]
+        mapping = {"type": kind, "coordinates": ring if kind == "LineString" else [ring]}
+    if kind == "Polygon" and not _has_polygon(mapping):
+        raise ValueError(f"{what} must be polygons, and there is none in {mapping.get('type')!r}")
+    number = getattr(system, "to_epsg", lambda: None)()
+    if number is not None:
+        named = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{number}"}}
+        mapping = {**mapping, "crs": named}
+    try:
+        return json.dumps(mapping, allow_nan=False, default=_plain)
+    except ValueError as error:
+        if "Circular" in str(error):
+            raise
+        raise ValueError(f"{what}: coordinates and attributes must be numbers, neither NaN nor infinite") from None
+
+
+def _has_polygon(mapping: Any) -> bool:
+    """Whether there is a polygon with corners in GeoJSON."""
+    if not isinstance(mapping, Mapping):
+        return False
+    kind = mapping.get("type")
+    if kind in ("Polygon", "MultiPolygon"):
+        return len(mapping.get("coordinates") or ()) > 0
+    members = mapping.get("features") or mapping.get("geometries") or [mapping.get("geometry")]
+    return any(_has_polygon(as_mapping(member)) for member in members if member is not None)
 
 
 def _is_rows(given: Any) -> bool:

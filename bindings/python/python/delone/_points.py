@@ -175,6 +175,22 @@ def as_index(value: Any, what: str) -> int:
     raise TypeError(f"{what} must be an integer, not {value!r}")
 
 
+def as_number_in(value: Any, what: str, least: int, most: int) -> int:
+    """An integer of a range."""
+    number = as_index(value, what)
+    if not least <= number <= most:
+        raise ValueError(f"{what} must be an integer from {least} to {most}, not {number}")
+    return number
+
+
+def as_names(values: Any, what: str) -> list[str]:
+    """Names, which one text is not: it would be one for each of its letters."""
+    names = [] if isinstance(values, str) else list(values)
+    if isinstance(values, str) or not all(isinstance(name, str) for name in names):
+        raise TypeError(f"{what} must be names, as in ['x', 'y', 'z'], not {values!r}")
+    return names
+
+
 def as_count(k: Any, queries: int) -> int:
     """How many neighbors each of so many queries is to have: at least one."""
     k = as_index(k, "k")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict
@@ -15,13 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._geometries import box_of
-from ._points import as_flag, as_index, as_points
+from ._points import as_flag, as_index, as_names, as_number_in, as_points
 
 if TYPE_CHECKING:
     from .tiles import Cuts
 
 #: Bytes of a unit of memory.
 _UNITS = {"": 1, "K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
+#: The largest number of bytes, of points and of tiles: that of NumPy's integers.
+_MOST = 2**63 - 1
 
 
 class Plan(TypedDict):
@@ -135,13 +137,18 @@ class Store:
 
 def as_bytes(memory: int | str) -> int:
     """A number of bytes: an integer, or text as in "500M" and "4G"."""
-    if not isinstance(memory, str):
-        return as_index(memory, "memory")
-    found = re.fullmatch(r"\s*([0-9.]+)\s*([KMGT]?)(i?B)?\s*", memory, re.IGNORECASE)
-    try:
-        return int(float(found[1]) * _UNITS[found[2].upper()])  # type: ignore[index]
-    except (TypeError, ValueError):
-        raise ValueError(f'memory must be a number of bytes, as in "500M" or "4G", not {memory!r}') from None
+    if isinstance(memory, str):
+        found = re.fullmatch(r"\s*([0-9.]+)\s*([KMGT]?)(i?B)?\s*", memory, re.IGNORECASE)
+        try:
+            memory = int(float(found[1]) * _UNITS[found[2].upper()])  # type: ignore[index]
+        except (OverflowError, TypeError, ValueError):
+            raise ValueError(f'memory must be a number of bytes, as in "500M" or "4G", not {memory!r}') from None
+    return as_number_in(memory, "memory", 1, _MOST)
+
+
+def as_classes(classes: Iterable[int] | None) -> list[int]:
+    """Classes of LAS files; none for all."""
+    return [as_number_in(one, "a class", 0, 255) for one in (() if classes is None else classes)]
 
 
 def build(
@@ -205,13 +212,13 @@ def build(
         "paths": [os.fspath(path) for path in names],
         "folder": os.fspath(folder),
         "memory": as_bytes(memory),
-        "tile": None if tile is None else as_index(tile, "tile"),
-        "workers": None if workers is None else as_index(workers, "workers"),
+        "tile": None if tile is None else as_number_in(tile, "tile", 0, _MOST),
+        "workers": None if workers is None else as_number_in(workers, "workers", 0, _MOST),
         "heights": as_flag(heights, "heights"),
         "neighbors": as_flag(neighbors, "neighbors"),
         "resume": as_flag(resume, "resume"),
-        "classes": [as_index(one, "a class") for one in classes],
-        "columns": list(columns),
+        "classes": as_classes(classes),
+        "columns": as_names(columns, "columns"),
     }
     core, remarks = _delone.Store.build(plan)
     for remark in remarks:

@@ -1,6 +1,8 @@
 //! Holes find the polygons that they are in, in formats whose rings are one after another.
 //!
-//! Decisions are exact. Cost: a hole is looked for in the outer rings whose box it is in.
+//! Decisions are exact. Cost: O(log n) for n outer rings, and the corners of those whose box is around the hole.
+
+use std::ops::Range;
 
 use delone_predicates::{Sign, orient2d};
 
@@ -15,9 +17,12 @@ pub(super) struct Ring {
 pub(super) fn polygons(rings: &[Ring], is_hole: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|&i| !is_hole(i));
     let mut polygons: Vec<Vec<usize>> = outer.into_iter().map(|ring| vec![ring]).collect();
-    let count = polygons.len();
+    let boxes = Boxes::of(polygons.iter().map(|polygon| &rings[polygon[0]]).collect());
     for hole in holes {
-        let around = (0..count).filter(|&i| rings[polygons[i][0]].is_around(&rings[hole]));
+        let mut around = boxes.around(&rings[hole]);
+        // In the order of the file, whatever that of the tree.
+        around.sort_unstable();
+        let around = around.into_iter().filter(|&i| rings[polygons[i][0]].is_around(&rings[hole]));
         // Of several, one in the others is the innermost.
         let innermost = around.reduce(|known, next| {
             let [a, b] = [known, next].map(|i| &rings[polygons[i][0]]);
@@ -56,10 +61,14 @@ impl Ring {
         least.is_some_and(|i| turn(i) == Sign::Positive)
     }
 
+    /// Whether its box is around that of another ring.
+    fn fits_around(&self, other: &Self) -> bool {
+        (0..2).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
+    }
+
     /// Whether another ring is inside: by the first of its corners that is not on this one.
     fn is_around(&self, other: &Self) -> bool {
-        let fits = (0..2).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k]);
-        fits && other.points.iter().find_map(|&p| self.contains(p)).unwrap_or(false)
+        self.fits_around(other) && other.points.iter().find_map(|&p| self.contains(p)).unwrap_or(false)
     }
 
     /// Whether a point is inside; nothing if it is on the ring. Sides that cross the line to the right of it are counted.
@@ -84,9 +93,69 @@ impl Ring {
     }
 }
 
+/// A tree of the boxes of rings, halved by their middles in turn along x and y.
+struct Boxes<'a> {
+    rings: Vec<&'a Ring>,
+    /// The rings of each half are a half of these.
+    order: Vec<usize>,
+    /// The box around each part, whose halves are at twice its place plus one and two.
+    bounds: Vec<[[f64; 2]; 2]>,
+}
+
+impl<'a> Boxes<'a> {
+    /// Rings of a part that is not halved: as many boxes as fit into a few cache lines.
+    const LEAF_BOXES: usize = 8;
+
+    fn of(rings: Vec<&'a Ring>) -> Self {
+        let order = (0..rings.len()).collect();
+        let mut tree = Self { bounds: Vec::new(), order, rings };
+        tree.halve(0, 0..tree.order.len(), 0);
+        tree
+    }
+
+    fn halve(&mut self, part: usize, range: Range<usize>, axis: usize) {
+        if self.bounds.len() <= part {
+            self.bounds.resize(part + 1, [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]);
+        }
+        let rings = &self.rings;
+        for &i in &self.order[range.clone()] {
+            let [low, high] = &mut self.bounds[part];
+            *low = [0, 1].map(|k| low[k].min(rings[i].low[k]));
+            *high = [0, 1].map(|k| high[k].max(rings[i].high[k]));
+        }
+        if range.len() > Self::LEAF_BOXES {
+            let middle = |i: &usize| rings[*i].low[axis] / 2.0 + rings[*i].high[axis] / 2.0;
+            let half = range.len() / 2;
+            self.order[range.clone()].select_nth_unstable_by(half, |i, j| middle(i).total_cmp(&middle(j)));
+            let cut = range.start + half;
+            self.halve(2 * part + 1, range.start..cut, 1 - axis);
+            self.halve(2 * part + 2, cut..range.end, 1 - axis);
+        }
+    }
+
+    /// The rings whose box is around that of another ring.
+    fn around(&self, ring: &Ring) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut pending = vec![(0, 0..self.order.len())];
+        while let Some((part, range)) = pending.pop() {
+            let [low, high] = self.bounds[part];
+            if ring.points.is_empty() || !(0..2).all(|k| low[k] <= ring.low[k] && ring.high[k] <= high[k]) {
+                continue;
+            }
+            if range.len() <= Self::LEAF_BOXES {
+                found.extend(self.order[range].iter().filter(|&&i| self.rings[i].fits_around(ring)));
+            } else {
+                let cut = range.start + range.len() / 2;
+                pending.extend([(2 * part + 1, range.start..cut), (2 * part + 2, cut..range.end)]);
+            }
+        }
+        found
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Ring, polygons};
+    use super::{Boxes, Ring, polygons};
 
     /// Rings of corners, of which those that are counter-clockwise are holes.
     fn grouped(rings: &[&[[f64; 2]]]) -> Vec<Vec<usize>> {
@@ -101,6 +170,23 @@ mod tests {
     fn hole(x: f64, side: f64) -> [[f64; 2]; 4] {
         let [a, b, c, d] = square(x, side);
         [a, d, c, b]
+    }
+
+    /// Squares in squares, in many places: the tree finds the rings that a look at all of them finds.
+    #[test]
+    fn the_tree_finds_what_a_look_at_all_finds() {
+        let squares: Vec<_> =
+            (0..400).map(|i| square(f64::from(i * 37 % 90), f64::from(i % 13 + 1))).collect();
+        let rings: Vec<Ring> = squares.iter().map(|ring| Ring::of(ring.to_vec())).collect();
+        let boxes = Boxes::of(rings.iter().collect());
+        for ring in &rings {
+            let mut found = boxes.around(ring);
+            found.sort_unstable();
+            let all: Vec<usize> = (0..rings.len()).filter(|&i| rings[i].fits_around(ring)).collect();
+            assert_eq!(found, all);
+        }
+        assert!(Boxes::of(Vec::new()).around(&rings[0]).is_empty());
+        assert!(boxes.around(&Ring::of(Vec::new())).is_empty());
     }
 
     #[test]

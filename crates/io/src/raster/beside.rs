@@ -138,7 +138,9 @@ pub fn heed_sides(crs: &mut Option<Crs>, path: &Path) -> Vec<String> {
         }
     }
     let mut worlds = WORLD.iter().map(|end| path.with_extension(end));
+    // A pipe was read by now, and would be waited for.
     if format == Format::Tiff
+        && path.is_file()
         && let Some(world) = worlds.find(|world| world.is_file())
         && is_nowhere(path)
     {
