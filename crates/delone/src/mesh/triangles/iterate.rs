@@ -79,6 +79,7 @@ impl Mesh2 {
     }
 
     /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
+    #[inline]
     pub(crate) fn finite_side(&self, e: EdgeId) -> EdgeId {
         let t = e.triangle();
         match self.places(t).iter().position(|v| v.is_ghost()) {
