@@ -3,15 +3,16 @@
 use super::{FACETS, Mesh3};
 use crate::ids::{FacetId, TetrahedronId, VertexId};
 
-/// Of points that span space.
 impl Mesh3 {
-    /// The finite tetrahedra.
+    /// The finite tetrahedra; none if the points span less than space.
     #[doc(alias("finite_cells", "all_cells"))]
     pub fn tetrahedra(&self) -> impl Iterator<Item = TetrahedronId> + Clone + '_ {
-        self.cells().filter(|&t| !self.is_ghost(t))
+        // Where points span less than space, other corners have no name either.
+        self.cells().filter(|&t| self.corners(t).iter().all(|v| !v.is_ghost()))
     }
 
-    /// The facets of finite tetrahedra, each in one of its two directions. Those of the hull are included.
+    /// The facets of finite tetrahedra, each in one of its two directions. Those of the hull are included. None if the points span less than
+    /// space.
     #[doc(alias = "finite_facets")]
     pub fn facets(&self) -> impl Iterator<Item = FacetId> + Clone + '_ {
         let facets = self.tetrahedra().flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k)));
@@ -21,7 +22,8 @@ impl Mesh3 {
         })
     }
 
-    /// The tetrahedra at a vertex, ghosts included, in no order: O(d log d) for d of them. Empty for an index that is no vertex.
+    /// The tetrahedra at a vertex, ghosts included, in no order: O(d log d) for d of them. Empty for an index that is no vertex. Where the
+    /// points span less than space, corners that are invented are ghosts too.
     #[doc(alias("incident_cells", "star"))]
     pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
         let mut star = Vec::new();
@@ -214,7 +216,14 @@ mod tests {
             // Euler's formula of a ball.
             assert_eq!(points.len() + facets, 1 + edges / 2 + cells);
         }
-        let d = Delaunay3::from_points(&[[0.0; 3], [1.0, 0.0, 0.0]]).expect("points");
-        assert!(d.mesh().tetrahedra_at(VertexId::new(9)).is_empty());
+        let flat: Vec<_> = (0..9).map(|i| [f64::from(i % 3), f64::from(i / 3), 1.0]).collect();
+        for points in [&flat[..], &flat[..3], &flat[..1], &[]] {
+            let d = Delaunay3::from_points(points).expect("points");
+            assert_eq!((d.mesh().tetrahedra().count(), d.mesh().facets().count()), (0, 0));
+            assert!(d.mesh().tetrahedra_at(VertexId::new(9)).is_empty());
+            assert!(
+                (0..points.len()).all(|v| !d.mesh().neighbors(VertexId::new(v)).contains(&VertexId::GHOST))
+            );
+        }
     }
 }
