@@ -2,6 +2,8 @@
 
 mod alpha;
 mod attributes;
+#[cfg(target_os = "linux")]
+mod bytes;
 mod cells;
 mod diagrams;
 mod dtm;

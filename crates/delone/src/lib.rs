@@ -66,7 +66,7 @@
 //! | feature | default | what |
 //! | --- | --- | --- |
 //! | `rayon` | yes | large sets are built on all threads of the current pool, to the same bits |
-//! | `histories` | yes | location by history; without it, in the plane, such strategies are the tree |
+//! | `histories` | yes | location by history, construction by conflict lists; without it such strategies are the tree, and such a construction is incremental |
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
 //! | `serde` | | ids, [`Duplicate`], [`Inserted`], [`Location2`], [`Location3`], [`Dimension`] and [`Bounds`] are written and read; whole triangulations are not: they are functions of their points |

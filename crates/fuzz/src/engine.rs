@@ -1,10 +1,10 @@
-//! The engine of the plane and that of space under one name, and what they made in a form that can be compared.
+//! Triangulations of the plane and of space by the public traits, and their simplices in a form that can be compared.
 
 use std::sync::OnceLock;
 
 use delone::{
-    Algorithm2, Algorithm3, Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted,
-    JumpAndWalk, Locate, Location2, Location3, Nearest, VertexId, Walk,
+    Algorithm2, Algorithm3, Change, Delaunay2, Delaunay3, Dimension, Error, Hierarchy, JumpAndWalk, Locate,
+    Nearest, VertexId, Walk,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -20,16 +20,6 @@ pub(crate) fn pools() -> &'static [ThreadPool] {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         THREADS.into_iter().map(pool).collect()
     })
-}
-
-/// Where a point falls, by the corners of what it is inside of.
-#[derive(Clone, Debug)]
-pub(crate) enum Place<const D: usize> {
-    Inside(Vec<[f64; D]>),
-    /// Beyond this facet of the hull.
-    Outside(Vec<[f64; D]>),
-    /// In nothing, because all is flat.
-    Nowhere,
 }
 
 /// Strategies of location; those of space come first.
@@ -53,34 +43,50 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 12] {
     ]
 }
 
-/// The operations of both engines.
-pub(crate) trait Engine<const D: usize>: Clone + Sized {
+/// A triangulation of points, by the traits that users have; what no trait has is said for each dimension.
+pub(crate) trait Engine<const D: usize>: Change<Point = [f64; D]> {
+    /// How many of [`strategies`] there are in this dimension.
     const STRATEGIES: usize;
 
-    fn build(points: &[[f64; D]]) -> Result<Self, Error>;
+    /// Inserted one by one.
     fn located(points: &[[f64; D]], locate: Locate, seed: u64) -> Result<Self, Error>;
     /// All other ways to build.
     fn others(points: &[[f64; D]], seed: u64) -> Vec<(String, Result<Self, Error>)>;
-    fn use_strategy(&mut self, locate: Locate) -> Result<(), Error>;
-    fn span(&self) -> isize;
-    /// As the oracle has them.
-    fn simplices(&self) -> Simplices<D>;
-    /// The verdict of the engine's own check.
-    fn is_sound(&self) -> Result<(), String>;
-    fn twins(&self) -> Vec<(usize, usize)>;
-    fn alive(&self) -> Vec<VertexId>;
-    fn at(&self, v: VertexId) -> [f64; D];
-    fn add(&mut self, p: [f64; D]) -> Result<Inserted, Error>;
-    fn take(&mut self, v: VertexId) -> Result<(), Error>;
-    fn shift(&mut self, v: VertexId, p: [f64; D]) -> Result<(), Error>;
-    fn add_all(&mut self, points: &[[f64; D]], seed: u64) -> Result<std::ops::Range<usize>, Error>;
-    fn place(&self, q: [f64; D]) -> Result<Place<D>, Error>;
-    fn near(&self, q: [f64; D]) -> Result<Option<VertexId>, Error>;
-    fn neighbor(&self, v: VertexId) -> Option<VertexId>;
-    fn some_near(&self, q: [f64; D], k: usize) -> Result<Vec<VertexId>, Error>;
-    fn ball(&self, q: [f64; D], radius: f64) -> Result<Vec<VertexId>, Error>;
+    /// The simplices of vertices that span less than space and more than a line; those of the trait have full dimension.
+    fn flat_simplices(&self) -> Vec<Vec<VertexId>>;
+    fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId>;
     /// `None` where there is no such query.
-    fn rectangle(&self, low: [f64; D], high: [f64; D]) -> Option<Result<Vec<VertexId>, Error>>;
+    fn in_box(&self, low: [f64; D], high: [f64; D]) -> Option<Result<Vec<VertexId>, Error>>;
+
+    fn build(points: &[[f64; D]]) -> Result<Self, Error> {
+        Self::from_vec(points.to_vec())
+    }
+
+    /// The dimension of what the vertices span; -1 without vertices.
+    fn span(&self) -> isize {
+        match self.dimension() {
+            Dimension::Empty => -1,
+            Dimension::Point => 0,
+            Dimension::Line => 1,
+            Dimension::Plane => 2,
+            Dimension::Space => 3,
+        }
+    }
+
+    /// As the oracle has them.
+    fn points_of_simplices(&self) -> Simplices<D> {
+        let points = |corners: &[VertexId]| corners.iter().filter_map(|&v| self.position(v)).collect();
+        match self.span() {
+            span if span == D as isize => sorted(self.simplices().map(|s| points(self.corners(s).as_ref()))),
+            2 => sorted(self.flat_simplices().iter().map(|corners| points(corners))),
+            _ => sorted(self.edges().map(|e| points(&e))),
+        }
+    }
+
+    /// The verdict of the triangulation's own check.
+    fn is_sound(&self) -> Result<(), String> {
+        self.check().map_err(|flaw| format!("check: {flaw:?}"))
+    }
 }
 
 /// Sorted simplices of sorted points; negative zero made zero.
@@ -96,84 +102,8 @@ pub(crate) fn sorted<const D: usize>(simplices: impl Iterator<Item = Vec<[f64; D
     all
 }
 
-fn span_of(dimension: Dimension) -> isize {
-    match dimension {
-        Dimension::Empty => -1,
-        Dimension::Point => 0,
-        Dimension::Line => 1,
-        Dimension::Plane => 2,
-        Dimension::Space => 3,
-    }
-}
-
-macro_rules! shared {
-    ($d:literal) => {
-        fn build(points: &[[f64; $d]]) -> Result<Self, Error> {
-            Self::from_points(points)
-        }
-
-        fn use_strategy(&mut self, locate: Locate) -> Result<(), Error> {
-            self.set_strategy(locate)
-        }
-
-        fn span(&self) -> isize {
-            span_of(self.dimension())
-        }
-
-        fn is_sound(&self) -> Result<(), String> {
-            self.check().map_err(|flaw| format!("check: {flaw:?}"))
-        }
-
-        fn twins(&self) -> Vec<(usize, usize)> {
-            self.duplicates().map(|d| (d.point, d.vertex.index())).collect()
-        }
-
-        fn alive(&self) -> Vec<VertexId> {
-            self.vertices().collect()
-        }
-
-        fn at(&self, v: VertexId) -> [f64; $d] {
-            self.point(v)
-        }
-
-        fn add(&mut self, p: [f64; $d]) -> Result<Inserted, Error> {
-            self.insert(p)
-        }
-
-        fn take(&mut self, v: VertexId) -> Result<(), Error> {
-            self.remove(v)
-        }
-
-        fn shift(&mut self, v: VertexId, p: [f64; $d]) -> Result<(), Error> {
-            self.move_to(v, p)
-        }
-
-        fn add_all(&mut self, points: &[[f64; $d]], seed: u64) -> Result<std::ops::Range<usize>, Error> {
-            self.extend(points, seed)
-        }
-
-        fn near(&self, q: [f64; $d]) -> Result<Option<VertexId>, Error> {
-            self.nearest(q)
-        }
-
-        fn neighbor(&self, v: VertexId) -> Option<VertexId> {
-            self.nearest_neighbor(v)
-        }
-
-        fn some_near(&self, q: [f64; $d], k: usize) -> Result<Vec<VertexId>, Error> {
-            self.k_nearest(q, k)
-        }
-
-        fn ball(&self, q: [f64; $d], radius: f64) -> Result<Vec<VertexId>, Error> {
-            self.within(q, radius)
-        }
-    };
-}
-
 impl Engine<2> for Delaunay2 {
     const STRATEGIES: usize = 12;
-
-    shared!(2);
 
     fn located(points: &[[f64; 2]], locate: Locate, seed: u64) -> Result<Self, Error> {
         Self::with_algorithm(points, Algorithm2::Located { locate, seed })
@@ -184,34 +114,21 @@ impl Engine<2> for Delaunay2 {
         all.map(|algorithm| (format!("{algorithm:?}"), Self::with_algorithm(points, algorithm))).into()
     }
 
-    fn simplices(&self) -> Simplices<2> {
-        if self.dimension() == Dimension::Plane {
-            sorted(self.triangles().map(|t| t.map(|v| self.point(v)).into()))
-        } else {
-            sorted(self.edges().map(|e| e.map(|v| self.point(v)).into()))
-        }
+    fn flat_simplices(&self) -> Vec<Vec<VertexId>> {
+        Vec::new()
     }
 
-    fn place(&self, q: [f64; 2]) -> Result<Place<2>, Error> {
-        let ends = |e| self.segment(e).to_vec();
-        Ok(match self.locate(q)? {
-            Location2::Triangle(t) => Place::Inside(self.mesh().corners(t).map(|v| self.point(v)).into()),
-            Location2::Edge(e) => Place::Inside(ends(e)),
-            Location2::Vertex(v) => Place::Inside(vec![self.point(v)]),
-            Location2::Outside(e) => Place::Outside(ends(e)),
-            Location2::LowerDimensional(_) => Place::Nowhere,
-        })
+    fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
+        self.nearest_neighbor(v)
     }
 
-    fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Option<Result<Vec<VertexId>, Error>> {
+    fn in_box(&self, low: [f64; 2], high: [f64; 2]) -> Option<Result<Vec<VertexId>, Error>> {
         Some(self.in_rectangle(low, high))
     }
 }
 
 impl Engine<3> for Delaunay3 {
     const STRATEGIES: usize = 7;
-
-    shared!(3);
 
     fn located(points: &[[f64; 3]], locate: Locate, seed: u64) -> Result<Self, Error> {
         Self::with_algorithm(points, Algorithm3::Located { locate, seed })
@@ -223,29 +140,15 @@ impl Engine<3> for Delaunay3 {
             .into()
     }
 
-    fn simplices(&self) -> Simplices<3> {
-        match self.dimension() {
-            Dimension::Space => sorted(self.tetrahedra().map(|t| t.map(|v| self.point(v)).into())),
-            Dimension::Plane => {
-                sorted(self.facets().map(|f| self.mesh().facet_corners(f).map(|v| self.point(v)).into()))
-            }
-            _ => sorted(self.edges().map(|e| e.map(|v| self.point(v)).into())),
-        }
+    fn flat_simplices(&self) -> Vec<Vec<VertexId>> {
+        self.facets().map(|f| self.mesh().facet_corners(f).into()).collect()
     }
 
-    fn place(&self, q: [f64; 3]) -> Result<Place<3>, Error> {
-        let corners = |f: FacetId| self.mesh().facet_corners(f).map(|v| self.point(v)).to_vec();
-        Ok(match self.locate(q)? {
-            Location3::Tetrahedron(t) => Place::Inside(self.mesh().corners(t).map(|v| self.point(v)).into()),
-            Location3::Facet(f) => Place::Inside(corners(f)),
-            Location3::Edge(ends) => Place::Inside(ends.map(|v| self.point(v)).into()),
-            Location3::Vertex(v) => Place::Inside(vec![self.point(v)]),
-            Location3::Outside(f) => Place::Outside(corners(f)),
-            Location3::LowerDimensional(_) => Place::Nowhere,
-        })
+    fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
+        self.nearest_neighbor(v)
     }
 
-    fn rectangle(&self, _: [f64; 3], _: [f64; 3]) -> Option<Result<Vec<VertexId>, Error>> {
+    fn in_box(&self, _: [f64; 3], _: [f64; 3]) -> Option<Result<Vec<VertexId>, Error>> {
         None
     }
 }

@@ -18,11 +18,10 @@
 //! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 
 pub(crate) mod conflict;
-pub(crate) mod conflict_lists;
+#[cfg(feature = "histories")]
 pub(crate) mod delaunay_tree;
 pub(crate) mod from_last;
 pub(crate) mod hierarchy;
-pub(crate) mod history;
 pub(crate) mod jump_and_walk;
 pub(crate) mod levels;
 mod links;
@@ -56,8 +55,8 @@ pub enum Locate {
     JumpAndWalk(JumpAndWalk),
     /// A descent through triangulations of ever larger random samples.
     Hierarchy(Hierarchy),
-    /// A descent through all triangles that ever were. Removal is an error. In the plane, without the feature `histories`, this
-    /// and the next two act as [`Self::Tree`]. In space, this and `Stars` are errors.
+    /// A descent through all triangles that ever were. Removal is an error. Without the feature `histories`,
+    /// this and the next two act as [`Self::Tree`]. In space, this and `Stars` are errors.
     History,
     /// A history without the triangles that came and went in one insertion. The triangles that an insertion left are searched by
     /// binary search around the new vertex. Removal is an error.
@@ -120,11 +119,6 @@ pub(crate) trait Ground {
 
     /// A hint at the vertex of a place, or [`Self::NOWHERE`].
     fn hint(&self, v: Place) -> Self::Hint;
-
-    /// A hint in the triangle, or tetrahedron, of some vertices, or on their hull edge; in space at one of them.
-    fn hint_at<T: Tally>(&self, corners: &[Place], _tally: &mut T) -> Self::Hint {
-        corners.first().map_or(Self::NOWHERE, |&v| self.hint(v))
-    }
 
     /// Whether a walk can start at a hint.
     fn is_alive(&self, hint: Self::Hint) -> bool;

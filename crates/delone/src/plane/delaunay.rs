@@ -6,6 +6,8 @@ use delone_predicates::circumcenter;
 
 use super::change::Upkeep;
 use super::construct::{self, Algorithm2, Built, InOrder};
+#[cfg(feature = "histories")]
+use super::histories;
 use super::layer::Layer;
 use super::locator::Locator;
 use crate::duplicates::Duplicates;
@@ -140,7 +142,10 @@ impl Delaunay2 {
         Ok(Self::assemble(match algorithm {
             Algorithm2::DivideAndConquer => return Self::divided(points),
             Algorithm2::Incremental { seed } => construct::incremental(points, seed),
-            Algorithm2::ConflictLists { seed } => construct::conflict_lists(points, seed),
+            #[cfg(feature = "histories")]
+            Algorithm2::ConflictLists { seed } => histories::by_conflict_lists(points, seed),
+            #[cfg(not(feature = "histories"))]
+            Algorithm2::ConflictLists { seed } => construct::incremental(points, seed),
             Algorithm2::Located { locate, seed } => return Self::located(points, locate, seed),
         }))
     }
@@ -149,8 +154,8 @@ impl Delaunay2 {
     fn located(points: Vec<[f64; 2]>, locate: Locate, seed: u64) -> Result<Self, Error> {
         #[cfg(feature = "histories")]
         if locate == Locate::History {
-            let (built, versions) = construct::history(points, seed);
-            let locator = OnceLock::from(Locator::Versions(Box::new(versions)));
+            let (built, histories) = histories::by_history(points, seed);
+            let locator = OnceLock::from(Locator::Histories(Box::new(histories)));
             return Ok(Self { locate, locator, ..Self::assemble(built) });
         }
         let mut triangulation = Self::with_strategy(locate)?;

@@ -4,15 +4,11 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::Delaunay2;
+#[cfg(feature = "histories")]
+use super::histories::Histories;
 use super::layer::Layer;
 use super::layer::insert::Spot;
-#[cfg(feature = "histories")]
-use super::stars::Stars;
-#[cfg(feature = "histories")]
-use super::versions::Versions;
 use crate::ids::{EdgeId, Place, TriangleId};
-#[cfg(feature = "histories")]
-use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::levels::Levels;
 use crate::locate::nearest::{descend, descend_within};
@@ -28,30 +24,24 @@ pub(super) enum Locator {
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
     #[cfg(feature = "histories")]
-    DelaunayTree(Box<DelaunayTree<[f64; 2], 3>>),
-    #[cfg(feature = "histories")]
-    Versions(Box<Versions>),
-    #[cfg(feature = "histories")]
-    Stars(Box<Stars>),
+    Histories(Box<Histories>),
 }
 
 impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
+        #[cfg(feature = "histories")]
+        if let Some(histories) = Histories::build(locate, layer) {
+            return Self::Histories(Box::new(histories));
+        }
         match locate {
-            Locate::Tree => Self::Tree(Hints::build(layer)),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
-            #[cfg(feature = "histories")]
-            Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
-            #[cfg(feature = "histories")]
-            Locate::History => Self::Versions(Box::new(Versions::build(layer))),
-            #[cfg(feature = "histories")]
-            Locate::Stars => Self::Stars(Box::new(Stars::build(layer))),
-            // The answers are the same.
-            #[cfg(not(feature = "histories"))]
-            Locate::History | Locate::Stars | Locate::DelaunayTree => Self::build(Locate::Tree, layer),
+            // Histories without their feature too: the answers are the same.
+            Locate::Tree | Locate::History | Locate::Stars | Locate::DelaunayTree => {
+                Self::Tree(Hints::build(layer))
+            }
         }
     }
 }
@@ -64,11 +54,7 @@ macro_rules! each {
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
             #[cfg(feature = "histories")]
-            Locator::DelaunayTree($strategy) => $do,
-            #[cfg(feature = "histories")]
-            Locator::Versions($strategy) => $do,
-            #[cfg(feature = "histories")]
-            Locator::Stars($strategy) => $do,
+            Locator::Histories($strategy) => $do,
         }
     };
 }
@@ -262,19 +248,9 @@ impl Delaunay2 {
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
             #[cfg(feature = "histories")]
-            Locator::DelaunayTree(tree) => {
-                footprint.versions = tree.count();
-                footprint.strategy = tree.bytes();
-            }
-            #[cfg(feature = "histories")]
-            Locator::Versions(versions) => {
-                footprint.versions = versions.count();
-                footprint.strategy = versions.bytes();
-            }
-            #[cfg(feature = "histories")]
-            Locator::Stars(stars) => {
-                footprint.versions = stars.count();
-                footprint.strategy = stars.bytes();
+            Locator::Histories(histories) => {
+                footprint.versions = histories.count();
+                footprint.strategy = histories.bytes();
             }
         }
         footprint

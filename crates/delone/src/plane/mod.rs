@@ -8,9 +8,10 @@ mod constrained;
 mod construct;
 mod delaunay;
 mod disk_edges;
-mod flips;
 mod furthest;
 mod graphs;
+#[cfg(feature = "histories")]
+mod histories;
 mod imprecise;
 mod layer;
 mod locate;
@@ -23,12 +24,8 @@ mod rectangle;
 mod refine;
 mod region;
 mod regular;
-#[cfg(feature = "histories")]
-mod stars;
 mod triangulation;
 pub(crate) mod verify;
-#[cfg(feature = "histories")]
-mod versions;
 mod voronoi;
 
 pub use constrained::{

@@ -4,6 +4,7 @@ use super::Delaunay3;
 use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Place, TetrahedronId};
+#[cfg(feature = "histories")]
 use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::levels::Levels;
@@ -18,6 +19,7 @@ pub(super) enum Locator {
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
+    #[cfg(feature = "histories")]
     DelaunayTree(Box<DelaunayTree<[f64; 3], 4>>),
 }
 
@@ -43,7 +45,10 @@ impl Locator {
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            #[cfg(feature = "histories")]
             Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
+            #[cfg(not(feature = "histories"))]
+            Locate::DelaunayTree => Self::Tree(Tree::build(layer)),
         }
     }
 }
@@ -55,6 +60,7 @@ macro_rules! each {
             Locator::FromLast($strategy) => $do,
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
+            #[cfg(feature = "histories")]
             Locator::DelaunayTree($strategy) => $do,
         }
     };
@@ -101,6 +107,7 @@ impl Delaunay3 {
                 footprint.levels = levels.sizes();
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
+            #[cfg(feature = "histories")]
             Locator::DelaunayTree(tree) => {
                 footprint.versions = tree.count();
                 footprint.strategy = tree.bytes();

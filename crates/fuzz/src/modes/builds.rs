@@ -19,7 +19,7 @@ pub(crate) fn compare<E: Engine<D>, const D: usize>(
     if made.span() != span {
         return Err(format!("{name}: spans {} instead of {span}", made.span()));
     }
-    let found = made.simplices();
+    let found = made.points_of_simplices();
     if found != *expected {
         let extra: Vec<_> = found.iter().filter(|s| !expected.contains(s)).take(2).collect();
         let missing: Vec<_> = expected.iter().filter(|s| !found.contains(s)).take(2).collect();
@@ -40,7 +40,8 @@ pub(crate) fn judge<E: Engine<D> + Send, const D: usize>(points: &[[f64; D]], se
     let compare = |made: Result<E, delone::Error>, name: &str| {
         let made = made.map_err(|error| format!("{name}: {error}"))?;
         compare(&made, span, &expected, name)?;
-        if made.twins() == twins { Ok(()) } else { Err(format!("{name}: duplicates {:?}", made.twins())) }
+        let found: Vec<_> = made.duplicates().map(|d| (d.point, d.vertex.index())).collect();
+        if found == twins { Ok(()) } else { Err(format!("{name}: duplicates {found:?}")) }
     };
     for (pool, threads) in pools().iter().zip(THREADS) {
         compare(pool.install(|| E::build(points)), &format!("built on {threads} threads"))?;

@@ -54,7 +54,7 @@ impl<const D: usize> Model<D> {
                 let expected = self.at(*p).map_or(Inserted::New(VertexId::new(self.places.len())), |i| {
                     Inserted::Existing(VertexId::new(i))
                 });
-                let found = engine.add(*p);
+                let found = engine.insert_observed(*p, &mut ());
                 if found != Ok(expected) {
                     return Err(format!("insert: {found:?} instead of {expected:?}"));
                 }
@@ -65,19 +65,19 @@ impl<const D: usize> Model<D> {
             Event::Remove(_) | Event::Move(..) if alive.is_empty() => {}
             Event::Remove(k) => {
                 let i = alive[k % alive.len()];
-                match engine.take(VertexId::new(i)) {
+                match engine.remove_observed(VertexId::new(i), &mut ()) {
                     Ok(()) => self.places[i] = None,
                     Err(Error::InsertOnly) => {}
                     Err(error) => return Err(format!("remove: {error}")),
                 }
-                let again = engine.take(VertexId::new(i));
+                let again = engine.remove_observed(VertexId::new(i), &mut ());
                 if self.places[i].is_none() && !matches!(again, Err(Error::NoSuchVertex { .. })) {
                     return Err(format!("remove a second time: {again:?}"));
                 }
             }
             Event::Move(k, p) => {
                 let i = alive[k % alive.len()];
-                let found = engine.shift(VertexId::new(i), *p);
+                let found = engine.move_to(VertexId::new(i), *p);
                 match (&found, self.at(*p)) {
                     (Err(Error::InsertOnly), _) => {}
                     (Ok(()), None) => self.places[i] = Some(*p),
@@ -88,7 +88,7 @@ impl<const D: usize> Model<D> {
             }
             Event::Extend(points) => {
                 let first = self.places.len();
-                let found = engine.add_all(points, seed);
+                let found = engine.extend(points, seed);
                 if found != Ok(first..first + points.len()) {
                     return Err(format!("extend: {found:?}"));
                 }
@@ -99,7 +99,7 @@ impl<const D: usize> Model<D> {
             }
             Event::Strategy(k) => {
                 let locate = strategies(seed)[k % E::STRATEGIES];
-                return engine.use_strategy(locate).map_err(|error| format!("set_strategy: {error}"));
+                return engine.set_strategy(locate).map_err(|error| format!("set_strategy: {error}"));
             }
             Event::Ask { q, other, radius, k } => {
                 let sites: Vec<(VertexId, [f64; D])> =
@@ -112,18 +112,18 @@ impl<const D: usize> Model<D> {
 
     /// The vertices, their places, and the triangulation.
     fn compare<E: Engine<D>>(&self, engine: &E) -> Judgement {
-        let alive: Vec<usize> = engine.alive().iter().map(|v| v.index()).collect();
+        let alive: Vec<usize> = engine.vertices().map(|v| v.index()).collect();
         if alive != self.alive() {
             return Err(format!("the vertices are {alive:?} instead of {:?}", self.alive()));
         }
-        if let Some(i) = alive.into_iter().find(|&i| Some(engine.at(VertexId::new(i))) != self.places[i]) {
-            return Err(format!("vertex {i} is at {:?}", engine.at(VertexId::new(i))));
+        if let Some(i) = alive.into_iter().find(|&i| engine.position(VertexId::new(i)) != self.places[i]) {
+            return Err(format!("vertex {i} is at {:?}", engine.position(VertexId::new(i))));
         }
         let points = self.points();
         let expected = if points.len() <= DEFINED_VERTICES {
             delaunay(&points)
         } else {
-            E::build(&points).map_err(|error| error.to_string())?.simplices()
+            E::build(&points).map_err(|error| error.to_string())?.points_of_simplices()
         };
         compare(engine, span(&points), &expected, "after it")
     }
@@ -166,7 +166,7 @@ impl<E: Engine<D>, const D: usize> Attack for Lives<E, D> {
         let mut random = Random::new(seed);
         let locate = strategies(seed)[random.below(E::STRATEGIES)];
         let mut engine = E::build(&[]).map_err(|error| error.to_string())?;
-        engine.use_strategy(locate).map_err(|error| error.to_string())?;
+        engine.set_strategy(locate).map_err(|error| error.to_string())?;
         let mut model = Model { places: Vec::new() };
         for (i, event) in events.iter().enumerate() {
             model

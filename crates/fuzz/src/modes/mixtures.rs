@@ -119,9 +119,9 @@ impl<E: Engine<D> + Send, const D: usize> Attack for Mixtures<E, D> {
         let mut random = Random::new(seed);
         let first = pools()[0].install(|| E::build(points)).map_err(text)?;
         first.is_sound()?;
-        let (expected, span) = (first.simplices(), first.span());
+        let (expected, span) = (first.points_of_simplices(), first.span());
         let agrees = |made: &E, name: &str| {
-            let found = made.simplices();
+            let found = made.points_of_simplices();
             if made.span() == span && found == expected {
                 return Ok(());
             }
@@ -151,11 +151,11 @@ impl<E: Engine<D> + Send, const D: usize> Attack for Mixtures<E, D> {
         let (old, new) = shuffled.split_at(shuffled.len().saturating_sub(200));
         let mut grown = E::build(old).map_err(text)?;
         for p in new {
-            if let Inserted::New(v) = grown.add(*p).map_err(text)?
+            if let Inserted::New(v) = grown.insert_observed(*p, &mut ()).map_err(text)?
                 && once_in(&mut random, 4)
             {
-                grown.take(v).map_err(text)?;
-                grown.add(*p).map_err(text)?;
+                grown.remove_observed(v, &mut ()).map_err(text)?;
+                grown.insert_observed(*p, &mut ()).map_err(text)?;
             }
         }
         agrees(&grown, "grown")

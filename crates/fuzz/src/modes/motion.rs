@@ -96,12 +96,12 @@ fn judged<E: Engine<D>, const D: usize>(found: &E, frame: &[[f64; D]], name: &st
     let expected = if frame.len() <= DEFINED_POINTS {
         delaunay(frame)
     } else {
-        E::build(frame).map_err(|error| error.to_string())?.simplices()
+        E::build(frame).map_err(|error| error.to_string())?.points_of_simplices()
     };
     compare(found, span(frame), &expected, &format!("{name}, step {step}"))?;
-    let twins = found.twins();
+    let twins: Vec<_> = found.duplicates().map(|d| (d.point, d.vertex.index())).collect();
     let right = twins.iter().all(|&(i, j)| frame[i] == frame[j]);
-    let count = frame.len() - found.alive().len();
+    let count = frame.len() - found.vertex_count();
     if right && twins.len() == count {
         Ok(())
     } else {

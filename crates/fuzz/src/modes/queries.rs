@@ -1,10 +1,10 @@
 //! Answers of a triangulation, against the definition of each question.
 
-use delone::VertexId;
+use delone::{Found, VertexId};
 use num_bigint::BigInt;
 
 use crate::attack::Judgement;
-use crate::engine::{Engine, Place};
+use crate::engine::Engine;
 use crate::oracle::exact::{Vector, along, axes, integer, integers, is_inside, orientation, scale, squared};
 
 /// Asks about a point, a ball around it and the box between it and another one.
@@ -26,14 +26,18 @@ pub(crate) fn judge<E: Engine<D>, const D: usize>(
     let mut answers = Answers(Vec::new());
 
     let nearest: Vec<VertexId> = by_distance.iter().map(|(_, _, v)| *v).collect();
-    answers.compare("nearest", engine.near(q).map(Vec::from_iter), nearest.iter().take(1).copied());
-    answers.compare("k_nearest", engine.some_near(q, k), nearest.iter().take(k).copied());
+    answers.compare(
+        "nearest",
+        engine.nearest_observed(q, &mut ()).map(Vec::from_iter),
+        nearest.iter().take(1).copied(),
+    );
+    answers.compare("k_nearest", engine.k_nearest(q, k), nearest.iter().take(k).copied());
     let is_within = |(d, ..): &&(BigInt, [f64; D], VertexId)| radius >= 0.0 && *d <= &reach * &reach;
     let within = by_distance.iter().filter(is_within).map(|(_, _, v)| *v);
-    answers.compare("within", engine.ball(q, radius), ascending(within));
+    answers.compare("within", engine.within(q, radius), ascending(within));
     let (low, high): ([f64; D], [f64; D]) =
         (std::array::from_fn(|k| q[k].min(other[k])), std::array::from_fn(|k| q[k].max(other[k])));
-    if let Some(found) = engine.rectangle(low, high) {
+    if let Some(found) = engine.in_box(low, high) {
         let in_box = |p: &[f64; D]| (0..D).all(|k| low[k] <= p[k] && p[k] <= high[k]);
         let expected = sites.iter().filter(|(_, p)| in_box(p)).map(|(v, _)| *v);
         answers.compare("in_rectangle", found, ascending(expected));
@@ -45,7 +49,7 @@ pub(crate) fn judge<E: Engine<D>, const D: usize>(
             let [to_p, to_r] = [p, r].map(|p| squared(&exact(p), &here));
             to_p.cmp(&to_r).then(p.partial_cmp(r).expect("finite"))
         });
-        let found: Vec<VertexId> = engine.neighbor(*v).into_iter().collect();
+        let found: Vec<VertexId> = engine.nearest_neighbor(*v).into_iter().collect();
         answers.compare("nearest_neighbor", Ok(found), best.map(|(_, _, w)| *w));
     }
     match answers.0.into_iter().next() {
@@ -83,7 +87,7 @@ fn judge_place<E: Engine<D>, const D: usize>(
     sites: &[(VertexId, [f64; D])],
     q: [f64; D],
 ) -> Judgement {
-    let place = engine.place(q).map_err(|error| error.to_string())?;
+    let found = engine.find(q).map_err(|error| error.to_string())?;
     let mut points: Vec<[f64; D]> = sites.iter().map(|(_, p)| *p).collect();
     points.push(q);
     // All that is compared has to be on one scale.
@@ -92,19 +96,31 @@ fn judge_place<E: Engine<D>, const D: usize>(
         |p: &[f64; D]| points.iter().position(|site| site == p).map_or_else(Vec::new, |i| exact[i].clone());
     let of_all = |corners: &[[f64; D]]| -> Vec<Vector> { corners.iter().map(of).collect() };
     let goal = &exact[sites.len()];
-    let right = match &place {
-        Place::Inside(corners) => is_inside(&of_all(corners), goal),
-        Place::Outside(corners) => {
-            let facet = of_all(corners);
+    let face: Vec<[f64; D]> = found.face().iter().filter_map(|&v| engine.position(v)).collect();
+    let right = match (found.is_outside, found.face().is_empty()) {
+        (false, _) => is_inside(&of_all(&face), goal) && is_of_simplex(engine, &found),
+        (true, false) => {
+            let facet = of_all(&face);
             let side = |p: &Vector| orientation(&facet.iter().chain([p]).collect::<Vec<_>>());
             let beyond = side(goal);
             facet.len() == D && beyond != 0 && exact[..sites.len()].iter().all(|p| side(p) != beyond)
         }
-        Place::Nowhere => {
+        (true, true) => {
             engine.span() < D as isize && !is_in_flat_hull(engine, &exact[..sites.len()], goal, &of_all)
         }
     };
-    if right { Ok(()) } else { Err(format!("locate: {place:?}")) }
+    if right { Ok(()) } else { Err(format!("find: {found:?}")) }
+}
+
+/// Whether the simplex found has the face found; there is none only where the vertices span less than the space.
+fn is_of_simplex<E: Engine<D>, const D: usize>(engine: &E, found: &Found<E::Simplex>) -> bool {
+    match found.simplex {
+        Some(s) => {
+            let corners = engine.corners(s);
+            found.face().iter().all(|v| corners.as_ref().contains(v))
+        }
+        None => engine.span() < D as isize,
+    }
 }
 
 /// Whether a point is in a simplex of a triangulation that does not span everything, or on a face of it.
@@ -124,7 +140,7 @@ fn is_in_flat_hull<E: Engine<D>, const D: usize>(
     }
     // Not outside of any side of the simplex.
     let flat_goal = along(goal, &axes);
-    engine.simplices().iter().any(|simplex| {
+    engine.points_of_simplices().iter().any(|simplex| {
         let corners: Vec<Vector> = of_all(simplex).iter().map(|p| along(p, &axes)).collect();
         let whole = orientation(&corners.iter().collect::<Vec<_>>());
         (0..corners.len()).all(|i| {

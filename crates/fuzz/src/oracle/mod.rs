@@ -1,4 +1,7 @@
-//! Definitions over big integers, from first principles. Nothing here knows how the engine decides.
+//! Definitions over big integers, for points of any dimension. Nothing here knows how the library decides.
+//!
+//! The crate `delone-oracle` judges the tests of the library. These definitions were written apart from it: two judges with the same
+//! fault are less likely than one with a fault.
 
 pub(crate) mod delaunay;
 pub(crate) mod exact;

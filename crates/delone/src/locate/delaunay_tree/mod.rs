@@ -32,6 +32,11 @@ pub(crate) trait Simplices<const N: usize>: Ground {
 
     /// The first two points, and further ones that span the space with them, in positive order.
     fn first(points: &[Self::Point]) -> Option<[usize; N]>;
+
+    /// A hint in the triangle, or tetrahedron, of some vertices, or on their hull edge; in space at one of them.
+    fn hint_at<T: Tally>(&self, corners: &[Place], _tally: &mut T) -> Self::Hint {
+        corners.first().map_or(Self::NOWHERE, |&v| self.hint(v))
+    }
 }
 
 /// The site at infinity; no node.

@@ -209,6 +209,7 @@ impl Mesh2 {
 
     /// A copy of those triangles of another mesh that are present and have only corners with a place here, closed with ghosts;
     /// together they are convex. None if there are no such triangles.
+    #[cfg(feature = "histories")]
     pub(crate) fn closed(
         places: usize,
         other: &Self,
@@ -254,6 +255,7 @@ impl Mesh2 {
     }
 
     /// Two triangles back to back: a sphere of three vertices, at places 0 to 2.
+    #[cfg(feature = "histories")]
     pub(crate) fn pillow() -> Self {
         let mut mesh = Self::empty(3);
         let [front, back] = [[0, 1, 2], [0, 2, 1]].map(|corners| {

@@ -8,7 +8,6 @@
 //! origin, where boxes of doubles nest a thousand deep, exponents serve as keys (`order/exponents.rs`).
 
 mod builder;
-mod by_flips;
 mod divide_and_conquer;
 pub(super) mod incremental;
 mod leaf;
@@ -24,8 +23,6 @@ use crate::error::Error;
 use crate::ids::Duplicate;
 use crate::locate::Locate;
 use crate::mesh::Mesh2;
-#[cfg(feature = "histories")]
-use crate::plane::versions::Versions;
 use crate::points::{check_finite, survey};
 use crate::tally::{Counters, Work};
 
@@ -54,7 +51,7 @@ pub enum Algorithm2 {
         seed: u64,
     },
     /// Insertion one by one in random order by splits and flips; each triangle keeps a list of the points in it
-    /// that are to come: O(n log n) expected.
+    /// that are to come: O(n log n) expected. Without the feature `histories`, as [`Self::Incremental`].
     ConflictLists {
         /// Decides the random order.
         seed: u64,
@@ -83,18 +80,6 @@ pub(super) fn incremental(points: Vec<[f64; 2]>, seed: u64) -> Built {
     let mut work = Work::default();
     let (points, mesh, duplicates) = incremental::triangulate(points, seed, &mut work);
     Built { points, mesh, duplicates, counters: Counters::Incremental(work) }
-}
-
-pub(super) fn conflict_lists(points: Vec<[f64; 2]>, seed: u64) -> Built {
-    let (mesh, duplicates, work, moved) = by_flips::by_lists(&points, seed);
-    Built { points, mesh, duplicates, counters: Counters::ConflictLists { work, moved } }
-}
-
-/// By history, which stays.
-#[cfg(feature = "histories")]
-pub(super) fn history(points: Vec<[f64; 2]>, seed: u64) -> (Built, Versions) {
-    let (mesh, duplicates, work, versions) = by_flips::by_history(&points, seed);
-    (Built { points, mesh, duplicates, counters: Counters::Incremental(work) }, versions)
 }
 
 #[cfg(test)]

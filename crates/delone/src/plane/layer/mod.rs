@@ -11,7 +11,6 @@ pub(in crate::plane) mod kernel;
 mod line;
 pub(in crate::plane) mod remove;
 mod search;
-mod simplices;
 pub(in crate::plane) mod walk;
 
 use std::cmp::Ordering;
@@ -205,16 +204,6 @@ impl<K: Kernel> Ground for Layer<K> {
     #[inline]
     fn hint(&self, v: Place) -> EdgeId {
         self.mesh.incident[v.index()]
-    }
-
-    /// An edge or a triangle at corners. Cost: O(d) for the smallest degree d of the corners.
-    fn hint_at<T: Tally>(&self, corners: &[Place], tally: &mut T) -> EdgeId {
-        let edge = match *corners {
-            [a, b] if self.spanned => self.mesh.edge_around([a, b], || tally.visited()),
-            [a, b, c] if self.spanned => self.mesh.edge_around([a, b, c], || tally.visited()),
-            _ => None,
-        };
-        edge.or_else(|| Some(self.hint(*corners.first()?))).unwrap_or(EdgeId::NONE)
     }
 
     #[inline]

@@ -36,7 +36,7 @@ use crate::order::random::SplitMix;
 use crate::sorting;
 use crate::space::layer::Layer;
 use crate::space::layer::kernel::Lift;
-use crate::space::layer::simplices::is_in_sphere;
+use crate::space::layer::kernel::is_in_sphere;
 use crate::tally::Tally;
 
 #[cfg(test)]

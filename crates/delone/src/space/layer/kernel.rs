@@ -3,7 +3,9 @@
 //! Without weights no site hides another, and a cavity has no vertex inside. With weights ([`Lift::HIDES`]) a vertex inside of a
 //! cavity is one that the new site hides, and a site without a cavity is hidden itself.
 
-use delone_predicates::{Filter3, Grid, Sign, in_power_sphere, in_sphere, keeps_clear, keeps_clear_of_sites};
+use delone_predicates::{
+    Filter3, Grid, Sign, in_power_sphere, in_sphere, keeps_clear, keeps_clear_of_sites, orient3d,
+};
 
 use crate::points::Bounds;
 use crate::weight::Weight;
@@ -109,5 +111,31 @@ impl Lift for f64 {
 
     fn most(weights: impl Iterator<Item = Self>) -> Self {
         weights.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// Whether a site is in the sphere of corners in positive order, one of which may be at infinity. All of `root` is in the hull.
+pub(in crate::space) fn is_in_sphere<W: Lift>(
+    mut corners: [Option<([f64; 3], W)>; 4],
+    root: &[[f64; 3]; 4],
+    q: ([f64; 3], W),
+) -> bool {
+    if let Some(k) = corners.iter().position(Option::is_none).filter(|&k| k < 3) {
+        // Two exchanges leave the order positive.
+        corners.swap(k, 3);
+        corners.swap((k + 1) % 3, (k + 2) % 3);
+    }
+    let [Some(a), Some(b), Some(c), last] = corners else { return false };
+    if let Some(d) = last {
+        return W::is_in_sphere([a, b, c, d], q);
+    }
+    match orient3d(a.0, b.0, c.0, q.0) {
+        Sign::Positive => true,
+        Sign::Negative => false,
+        // In the plane of a hull facet the sphere through any point inside cuts out its circle, whatever that weighs.
+        Sign::Zero => {
+            let inside = root.iter().find(|&&d| !orient3d(a.0, b.0, c.0, d).is_zero());
+            inside.is_some_and(|&d| W::is_in_sphere([b, a, c, (d, W::default())], q))
+        }
     }
 }

@@ -10,7 +10,8 @@ mod hull;
 pub(in crate::space) mod kernel;
 mod remove;
 pub(in crate::space) mod scaffold;
-pub(in crate::space) mod simplices;
+#[cfg(feature = "histories")]
+mod simplices;
 mod wrap;
 
 pub(crate) use hull::{NearestFace, nearest_face};

@@ -1,22 +1,22 @@
 //! All versions of the triangulation, made by splits and flips, with the history that leads through them.
 //!
 //! Source: Guibas, Knuth & Sharir, Algorithmica 1992, §3. In bulk this is the paper's algorithm: a point is traced, and
-//! its triangle split and flipped (`construct/by_flips.rs`). Beside a triangulation that changes, the versions get each new
+//! its triangle split and flipped (`build.rs`). Beside a triangulation that changes, the versions get each new
 //! vertex where the search for it has ended.
 //!
-//! Cost: see `locate/history.rs`; nine triangles a point of 36 bytes each.
+//! Cost: see `history.rs`; nine triangles a point of 36 bytes each.
 
 use super::flips::Flips;
-use super::layer::Layer;
+use super::history::History;
 use crate::ids::{Place, TriangleId};
-use crate::locate::history::History;
 use crate::locate::{Ground, Start, Strategy};
 use crate::order::random::SplitMix;
+use crate::plane::layer::Layer;
 use crate::tally::Tally;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(super) struct Versions {
+pub(in crate::plane) struct Versions {
     pub(super) flips: Flips,
     pub(super) history: History,
     /// For each point of the versions the place of its vertex.

@@ -2,9 +2,12 @@
 
 use delone_predicates::{Sign, orient2d};
 
-use super::Layer;
-use super::kernel::Kernel;
+use crate::ids::{EdgeId, Place};
+use crate::locate::Ground;
 use crate::locate::delaunay_tree::Simplices;
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::Kernel;
+use crate::tally::Tally;
 
 impl<K: Kernel<Weight = ()>> Simplices<3> for Layer<K> {
     fn is_in_circle(corners: [Option<[f64; 2]>; 3], _: &[[f64; 2]; 3], q: [f64; 2]) -> bool {
@@ -21,6 +24,16 @@ impl<K: Kernel<Weight = ()>> Simplices<3> for Layer<K> {
         let turn = |i: usize| orient2d(points[0], points[1], points[i]);
         let third = (2..points.len()).find(|&i| !turn(i).is_zero())?;
         Some(if turn(third) == Sign::Positive { [0, 1, third] } else { [1, 0, third] })
+    }
+
+    /// An edge or a triangle at corners. Cost: O(d) for the smallest degree d of the corners.
+    fn hint_at<T: Tally>(&self, corners: &[Place], tally: &mut T) -> EdgeId {
+        let edge = match *corners {
+            [a, b] if self.spanned => self.mesh.edge_around([a, b], || tally.visited()),
+            [a, b, c] if self.spanned => self.mesh.edge_around([a, b, c], || tally.visited()),
+            _ => None,
+        };
+        edge.or_else(|| Some(self.hint(*corners.first()?))).unwrap_or(EdgeId::NONE)
     }
 }
 

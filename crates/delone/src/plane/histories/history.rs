@@ -9,14 +9,13 @@
 //! amortized; linear in n for an unlucky query. Nothing is ever forgotten, so nothing can be removed. Choose it to
 //! study the randomized incremental construction.
 
-#[cfg(feature = "histories")]
 use super::conflict_lists::Branch;
 use crate::ids::TriangleId;
 use crate::tally::Tally;
 
 /// The triangles that replaced a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fork {
+pub(super) enum Fork {
     /// The three triangles around a new point.
     Split([TriangleId; 3]),
     /// The two triangles that a flip made.
@@ -24,7 +23,7 @@ pub(crate) enum Fork {
 }
 
 /// Hears of every split and flip. `shape` tells the geometry after the change.
-pub(crate) trait Observer<S> {
+pub(super) trait Observer<S> {
     /// Whether triangles that are gone keep their numbers. Those that a change makes are numbered in a row then.
     const KEEPS: bool;
 
@@ -37,16 +36,14 @@ pub(crate) trait Observer<S> {
 
 /// For each triangle that ever was those that took its place.
 #[derive(Clone, Debug, Default)]
-#[cfg(feature = "histories")]
-pub(crate) struct History {
+pub(super) struct History {
     /// Twice the first of them, and one more where they are three. Zero as long as it is present.
     forks: Vec<u32>,
 }
 
-#[cfg(feature = "histories")]
 impl History {
     /// Memory in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(super) fn bytes(&self) -> usize {
         size_of_val(&*self.forks)
     }
 
@@ -60,14 +57,14 @@ impl History {
     }
 
     /// The triangles that replaced a triangle, unless it is present.
-    pub(crate) fn fork(&self, t: TriangleId) -> Option<Fork> {
+    pub(super) fn fork(&self, t: TriangleId) -> Option<Fork> {
         let fork = self.forks.get(t.index()).copied().filter(|fork| *fork != 0)?;
         let new = |k: u32| TriangleId::new((fork / 2 + k) as usize);
         Some(if fork % 2 == 1 { Fork::Split([0, 1, 2].map(new)) } else { Fork::Flip([0, 1].map(new)) })
     }
 
     /// Traces the triangles that contain a point from the first one, which contains everything, to a present one.
-    pub(crate) fn trace<S: Branch, T: Tally>(&self, shape: &S, q: [f64; 2], tally: &mut T) -> TriangleId {
+    pub(super) fn trace<S: Branch, T: Tally>(&self, shape: &S, q: [f64; 2], tally: &mut T) -> TriangleId {
         let mut at = TriangleId::new(0);
         tally.visited();
         while let Some(fork) = self.fork(at) {
@@ -78,7 +75,6 @@ impl History {
     }
 }
 
-#[cfg(feature = "histories")]
 impl<S> Observer<S> for History {
     const KEEPS: bool = true;
 

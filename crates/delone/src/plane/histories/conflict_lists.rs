@@ -12,7 +12,7 @@ use crate::ids::TriangleId;
 use crate::tally::Tally;
 
 /// The geometry as lists and histories see it.
-pub(crate) trait Branch {
+pub(super) trait Branch {
     /// The point with this number.
     fn numbered(&self, point: u32) -> [f64; 2];
 
@@ -26,7 +26,7 @@ const END: u32 = u32::MAX;
 
 /// The lists, linked through the points.
 #[derive(Clone, Debug)]
-pub(crate) struct ConflictLists {
+pub(super) struct ConflictLists {
     /// For each triangle its first point.
     first: Vec<u32>,
     /// For each point the next one in its list.
@@ -34,19 +34,19 @@ pub(crate) struct ConflictLists {
     /// For each point its triangle.
     home: Vec<TriangleId>,
     /// How often a point was put into a list.
-    pub(crate) moved: u64,
+    pub(super) moved: u64,
 }
 
 impl ConflictLists {
     /// All points in one triangle.
-    pub(crate) fn new(points: usize, all: TriangleId) -> Self {
+    pub(super) fn new(points: usize, all: TriangleId) -> Self {
         let next = (1..=points as u32).map(|i| if i == points as u32 { END } else { i }).collect();
         let first = vec![if points == 0 { END } else { 0 }];
         Self { first, next, home: vec![all; points], moved: 0 }
     }
 
     /// The triangle that contains a point. Valid until the point is inserted.
-    pub(crate) fn home(&self, point: u32) -> TriangleId {
+    pub(super) fn home(&self, point: u32) -> TriangleId {
         self.home[point as usize]
     }
 
@@ -76,7 +76,7 @@ impl ConflictLists {
     }
 
     /// Forgets a point that has been inserted or set aside.
-    pub(crate) fn remove(&mut self, point: u32) {
+    pub(super) fn remove(&mut self, point: u32) {
         let t = self.home(point);
         let mut link = self.first[t.index()];
         if link == point {

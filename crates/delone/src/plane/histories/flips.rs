@@ -22,14 +22,12 @@
 
 use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 
-#[cfg(feature = "histories")]
-use super::layer::Layer;
+use super::conflict_lists::Branch;
+use super::history::{Fork, Observer};
 use crate::ids::{EdgeId, Place, TriangleId};
-#[cfg(feature = "histories")]
-use crate::locate::Ground;
-use crate::locate::conflict_lists::Branch;
-use crate::locate::history::{Fork, Observer};
+use crate::locate::delaunay_tree::Simplices;
 use crate::mesh::Mesh2;
+use crate::plane::layer::Layer;
 use crate::tally::Tally;
 
 /// The number of dummies; the place of point i is i + DUMMIES.
@@ -63,13 +61,11 @@ impl Flips {
     }
 
     /// The number of triangles, past ones and those at the dummies included.
-    #[cfg(feature = "histories")]
     pub(super) fn count(&self) -> usize {
         self.mesh.slot_count() - 1
     }
 
     /// The memory of the history, in bytes.
-    #[cfg(feature = "histories")]
     pub(super) fn bytes(&self) -> usize {
         self.mesh.bytes() + size_of_val(&*self.points)
     }
@@ -93,7 +89,6 @@ impl Flips {
     }
 
     /// Decides where the point may be a dummy too, and `a` is none.
-    #[cfg(feature = "histories")]
     pub(super) fn turn(&self, a: Place, b: Place, c: Place) -> Sign {
         match (is_dummy(b), is_dummy(c)) {
             (_, false) => self.side(a, b, self.point(c)),
@@ -135,7 +130,6 @@ impl Flips {
     ///
     /// The triangle is looked for around its corners, around all at once, so that this costs three times the smallest of their degrees.
     /// At most 12 n / d triangles have three corners of degrees above d, because at most 6 n / d vertices have.
-    #[cfg(feature = "histories")]
     pub(super) fn hint<T: Tally>(
         &self,
         layer: &Layer,

@@ -1,21 +1,20 @@
 //! Construction by splits and flips in random order: one mesh, which is closed with ghosts in the end.
 //!
-//! Where the next point is, conflict lists know beforehand (`locate/conflict_lists.rs`), or the history is traced, once a
-//! point (`locate/history.rs`): the algorithm of Guibas, Knuth & Sharir, Algorithmica 1992, §3.
+//! Where the next point is, conflict lists know beforehand (`conflict_lists.rs`), or the history is traced, once a
+//! point (`history.rs`): the algorithm of Guibas, Knuth & Sharir, Algorithmica 1992, §3.
 //!
 //! Cost: O(n log n) expected. Beside the result lists take 32 bytes a triangle and 12 a point; a history stays with the result.
 
 use delone_predicates::lexicographic;
 
+use super::conflict_lists::ConflictLists;
+use super::flips::{DUMMIES, Flips};
+use super::history::Observer;
+use super::versions::Versions;
 use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place, TriangleId, VertexId};
-use crate::locate::conflict_lists::ConflictLists;
-use crate::locate::history::Observer;
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
-use crate::plane::flips::{DUMMIES, Flips};
-#[cfg(feature = "histories")]
-use crate::plane::versions::Versions;
 use crate::sorting;
 use crate::tally::Work;
 
@@ -37,7 +36,6 @@ pub(super) fn by_lists(points: &[[f64; 2]], seed: u64) -> (Mesh2, Vec<Duplicate>
 }
 
 /// Triangulates points by their history, which can be gone on with.
-#[cfg(feature = "histories")]
 pub(super) fn by_history(points: &[[f64; 2]], seed: u64) -> (Mesh2, Vec<Duplicate>, Work, Versions) {
     let mut versions = Versions::new();
     versions.flips.points.extend(points);

@@ -16,11 +16,11 @@
 use delone_predicates::Sign;
 
 use super::flips::{DUMMIES, Flips};
-use super::layer::Layer;
+use super::history::Observer;
 use crate::ids::{EdgeId, Place, TriangleId};
-use crate::locate::history::Observer;
 use crate::locate::{Ground, Start, Strategy};
 use crate::order::random::SplitMix;
+use crate::plane::layer::Layer;
 use crate::tally::Tally;
 
 /// No triangle that is kept.
@@ -28,7 +28,7 @@ const NONE: u32 = u32::MAX;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(super) struct Stars {
+pub(in crate::plane) struct Stars {
     flips: Flips,
     kept: Kept,
     /// For each point its star.
@@ -212,7 +212,7 @@ mod tests {
 
     use super::*;
     use crate::Delaunay2;
-    use crate::plane::versions::Versions;
+    use crate::plane::histories::versions::Versions;
 
     /// The triangle found contains the point, inside or on its border: no walk would be needed. For the history of all
     /// triangles too.
