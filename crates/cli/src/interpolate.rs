@@ -20,77 +20,95 @@ pub(crate) fn run(args: &InterpolateArgs, quiet: bool) -> Result<(), Failure> {
 
 fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
-    let mut inputs = args.input.paths();
-    inputs.extend(args.queries.as_deref());
-    inputs.extend(args.place.like.as_deref());
-    let files_of_values: Vec<&Path> =
-        args.value.iter().map(Path::new).filter(|path| path.is_file()).collect();
-    inputs.extend(&files_of_values);
-    files::keep_apart(&inputs, std::iter::once(args.output.as_path()).chain(stats_path))?;
+    keep_apart(args, stats_path)?;
     let format = files::format(&args.output, args.to, "--to")?;
     check(args, format, R::is_space())?;
     let mut stats = Stats::start();
-    let place = Place::read(&args.place, None, quiet)?;
-    let (input, dimensions) = match &args.queries {
-        Some(path) => files::attributes_apart(&args.input, path),
-        None => (args.input.clone(), Vec::new()),
-    };
-    let (points, about) = room::read::<R>(&input, quiet)?;
-    let crs = place.crs(about.crs.as_ref());
     let label = args.input.label();
-    let mut table = table(args, &about, points.len(), quiet)?;
-    let columns = table.len();
-    let mut of_queries = Cloud::default();
-    let (queries, grid) = match (&args.queries, args.grid) {
-        (Some(path), _) => {
-            let (queries, about) = room::queries_with::<R>(path, dimensions, quiet)?;
-            of_queries = about;
-            (queries, None)
-        }
-        (None, size) => {
-            let grid = match place.cells.like {
-                Some(grid) => grid,
-                None => place
-                    .cells
-                    .squares(&room::bounds(&points, &label)?, size.unwrap_or(1.0))
-                    .map_err(|error| Failure::points(&label, &error))?,
-            };
-            (centers::<R>(&grid, &label)?, Some(grid))
-        }
-    };
+    let mut task = Task::<R>::read(args, &label, quiet)?;
     stats.phase("read");
-    let d: R = room::build(&points, R::FASTEST, &label, quiet)?;
+    let d: R = room::build(&task.points, R::FASTEST, &label, quiet)?;
     stats.phase("build");
-    table.iter_mut().for_each(|values| args.duplicates.rule().settle(values, room::duplicates(&d)));
+    task.table.iter_mut().for_each(|values| args.duplicates.rule().settle(values, room::duplicates(&d)));
     room::remark(&d, quiet);
     let phase = Phase::start(quiet, "interpolating");
     let failed = |error: Error| match (&args.queries, &error) {
         (Some(path), Error::NotFinite { .. }) => Failure::points(path, &error),
         _ => Failure::points(&label, &error),
     };
-    let values = values(&d, args, &queries, &table).map_err(failed)?;
+    let values = values(&d, args, &task.queries, &task.table).map_err(failed)?;
     drop(phase);
     stats.phase("query");
     stats.triangulation(&d, d.counters());
-    stats.set("queries", queries.len());
-    stats.set("outside", values.chunks(columns).filter(|row| row[0].is_nan()).count());
-    match (format, &grid) {
-        (Format::Npy, None) if columns == 1 => {
-            files::write(&args.output, |out| Ok(write_array(out, &[values.len()], values.iter().copied())?))?;
-        }
-        (Format::Npy, None) => {
-            let shape = [values.len() / columns, columns];
-            files::write(&args.output, |out| Ok(write_array(out, &shape, values.iter().copied())?))?;
-        }
-        (_, None) => {
-            let found = Found::Numbers(&values);
-            queries::write(&args.output, format, &queries, &of_queries, (&names(args), found))?;
-        }
-        (_, Some(grid)) => write_raster(args, format, grid, crs.as_ref(), &values, quiet)?,
+    stats.set("queries", task.queries.len());
+    stats.set("outside", values.chunks(task.table.len()).filter(|row| row[0].is_nan()).count());
+    match &task.grid {
+        Some(grid) => write_raster(args, format, grid, task.crs.as_ref(), &values, quiet)?,
+        None => task.write_answers(args, format, &values)?,
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(stats_path)
+}
+
+/// No output is one of the inputs.
+fn keep_apart(args: &InterpolateArgs, stats: Option<&Path>) -> Result<(), Failure> {
+    let mut inputs = args.input.paths();
+    inputs.extend(args.queries.as_deref());
+    inputs.extend(args.place.like.as_deref());
+    inputs.extend(args.value.iter().map(Path::new).filter(|path| path.is_file()));
+    files::keep_apart(&inputs, std::iter::once(args.output.as_path()).chain(stats))
+}
+
+/// The points, their values, and the places where values are asked for.
+struct Task<R: Room> {
+    points: Vec<R::Point>,
+    /// A list for each value.
+    table: Vec<Vec<f64>>,
+    crs: Option<Crs>,
+    queries: Vec<R::Point>,
+    /// What else the file of queries holds.
+    of_queries: Cloud,
+    /// The raster whose cells are the queries, if there is no file of queries.
+    grid: Option<Grid>,
+}
+
+impl<R: Room> Task<R> {
+    fn read(args: &InterpolateArgs, label: &Path, quiet: bool) -> Result<Self, Failure> {
+        let place = Place::read(&args.place, None, quiet)?;
+        let (input, dimensions) = match &args.queries {
+            Some(path) => files::attributes_apart(&args.input, path),
+            None => (args.input.clone(), Vec::new()),
+        };
+        let (points, about) = room::read::<R>(&input, quiet)?;
+        let crs = place.crs(about.crs.as_ref());
+        let table = table(args, &about, points.len(), quiet)?;
+        if let Some(path) = &args.queries {
+            let (queries, of_queries) = room::queries_with::<R>(path, dimensions, quiet)?;
+            return Ok(Self { points, table, crs, queries, of_queries, grid: None });
+        }
+        let grid = match place.cells.like {
+            Some(grid) => grid,
+            None => place
+                .cells
+                .squares(&room::bounds(&points, label)?, args.grid.unwrap_or(1.0))
+                .map_err(|error| Failure::points(label, &error))?,
+        };
+        let queries = centers::<R>(&grid, label)?;
+        Ok(Self { points, table, crs, queries, of_queries: Cloud::default(), grid: Some(grid) })
+    }
+
+    /// Writes the values at the queries, a row for each.
+    fn write_answers(&self, args: &InterpolateArgs, format: Format, values: &[f64]) -> Result<(), Failure> {
+        let columns = self.table.len();
+        if format == Format::Npy {
+            let shape = [values.len() / columns, columns];
+            let shape = if columns == 1 { &shape[..1] } else { &shape };
+            return files::write(&args.output, |out| Ok(write_array(out, shape, values.iter().copied())?));
+        }
+        let found = (&*names(args), Found::Numbers(values));
+        queries::write(&args.output, format, &self.queries, &self.of_queries, found)
+    }
 }
 
 fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), Failure> {

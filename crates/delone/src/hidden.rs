@@ -42,8 +42,8 @@ impl<C: Copy + Ord> HiddenSites<C> {
     /// Some sites, whose simplices are not known.
     pub(crate) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
         sites.sort_unstable();
-        let below = |(id, place)| (id, Hidden { place, equal: None, cell: None });
-        Self { sites: sites.into_iter().map(below).collect(), ..Self::default() }
+        let entry = |(id, place)| (id, Hidden { place, equal: None, cell: None });
+        Self { sites: sites.into_iter().map(entry).collect(), ..Self::default() }
     }
 
     pub(crate) fn place(&self, id: VertexId) -> Option<Place> {

@@ -44,5 +44,5 @@ fn too_many_points_are_refused() {
         let error = Delaunay2::from_points(points).expect_err("too many");
         assert_eq!(error, Error::TooManyPoints { count: points.len(), most: MAX_POINTS });
     }
-    assert_eq!(Delaunay2::from_points(&vec![Origin; 1000]).expect("finite").duplicates().count(), 999);
+    assert_eq!(Delaunay2::from_points(&[Origin; 1000]).expect("finite").duplicates().count(), 999);
 }

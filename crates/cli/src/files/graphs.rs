@@ -115,6 +115,6 @@ pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Fail
     let found = delone_io::read_rings_beside(source, format, &mut beside(path));
     let mut found = found.map_err(|error| wrong(path, format, &error))?;
     found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
-    systems::heed(&mut found.crs, path, Role::Beside, quiet)?;
+    systems::find_system(&mut found.crs, path, Role::Beside, quiet)?;
     Ok(found.rings)
 }

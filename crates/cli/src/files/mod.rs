@@ -233,7 +233,7 @@ fn read_all(
 pub(crate) fn heed(cloud: &mut Cloud, path: &Path, role: Role, quiet: bool) -> Result<(), Failure> {
     tell(cloud, Some(path), quiet);
     attributes::heed(cloud);
-    systems::heed(&mut cloud.crs, path, role, quiet)
+    systems::find_system(&mut cloud.crs, path, role, quiet)
 }
 
 /// Tells of a file, or of several that were joined, what a user should know; once.
@@ -277,7 +277,7 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
 pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Raster, Failure> {
     let (source, _phase) = open(path, format, READING, quiet)?;
     let mut raster = delone_io::read_raster(source, format).map_err(|error| wrong(path, format, &error))?;
-    systems::heed(&mut raster.crs, path, Role::Input, quiet)?;
+    systems::find_system(&mut raster.crs, path, Role::Input, quiet)?;
     raster.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     Ok(raster)
 }
@@ -288,7 +288,7 @@ pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Fai
     let (source, _phase) = open_part(path, format, READING, quiet)?;
     let place = delone_io::read_raster_place(source, format).map_err(|error| wrong(path, format, &error));
     let (grid, mut crs) = place?;
-    systems::heed(&mut crs, path, Role::Beside, quiet)?;
+    systems::find_system(&mut crs, path, Role::Beside, quiet)?;
     Ok((grid, crs))
 }
 

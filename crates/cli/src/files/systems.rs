@@ -1,22 +1,30 @@
 //! Systems of coordinates are passed on, or a line says where they are not.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use delone_io::{Crs, Format, Said};
 
 use crate::message::{Failure, lost, mislead};
 
-/// The system of the input that was read first, or of a file beside it until then.
-static SYSTEM: Mutex<Option<Known>> = Mutex::new(None);
-/// The system that the command line says all inputs have.
-static SAID: OnceLock<Crs> = OnceLock::new();
-/// The outputs of the command.
-static OUTPUTS: Mutex<Vec<(PathBuf, Format)>> = Mutex::new(Vec::new());
+/// Systems and outputs of the command. Readers find the systems, writers name the outputs, and at the end both are compared.
+static COMMAND: Mutex<Command> = Mutex::new(Command { said: None, known: None, outputs: Vec::new() });
+
+struct Command {
+    /// The system that the command line says all inputs have.
+    said: Option<Crs>,
+    /// The system of the input that was read first, or of a file beside it until then.
+    known: Option<Known>,
+    outputs: Vec<(PathBuf, Format)>,
+}
+
+fn command() -> MutexGuard<'static, Command> {
+    COMMAND.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Inputs have this system from now on, whatever their files tell; files beside them have it if they tell none.
 pub(crate) fn say_system(crs: Crs) {
-    SAID.get_or_init(|| crs);
+    command().said.get_or_insert(crs);
 }
 
 /// Whether a file is the input of a command, or beside it: a clip, queries, breaklines.
@@ -33,52 +41,59 @@ struct Known {
     role: Role,
 }
 
-/// Keeps the system of a file, which may be the one that was said, or that of a file beside it.
+impl Known {
+    /// The error that two files have different systems. The file beside the input is the one to transform, whichever was read
+    /// first.
+    fn differs_from(&self, first: &Self) -> Failure {
+        let is_first_wrong = first.role == Role::Beside && self.role == Role::Input;
+        let (wrong, right) = if is_first_wrong { (first, self) } else { (self, first) };
+        let [this, that] = [wrong, right].map(|known| known.path.display());
+        Failure::new(
+            format!("{this}: its coordinates are {}, those of {that} {}", wrong.crs, right.crs),
+            "transform one of them first: ogr2ogr, gdalwarp and pdal do so",
+        )
+    }
+}
+
+/// Finds the system of a file: its own, that of a file beside it, or the one that was said. Keeps it for the outputs.
 ///
 /// # Errors
 /// If another input has another one.
-pub(super) fn heed(crs: &mut Option<Crs>, path: &Path, role: Role, quiet: bool) -> Result<(), Failure> {
+pub(super) fn find_system(
+    crs: &mut Option<Crs>,
+    path: &Path,
+    role: Role,
+    quiet: bool,
+) -> Result<(), Failure> {
     let losses = delone_io::heed_sides(crs, path);
     losses.iter().for_each(|loss| lost(quiet, loss));
-    if let Some(said) = SAID.get().filter(|_| role == Role::Input || crs.is_none()) {
+    let mut command = command();
+    if let Some(said) = command.said.as_ref().filter(|_| role == Role::Input || crs.is_none()) {
         *crs = Some(said.clone());
     }
-    let mut system = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner);
-    let Some(own) = crs else { return Ok(()) };
-    if let Some(known) = &*system
-        && !known.crs.agrees(own)
-    {
-        // The file beside the input is the one to transform, whichever was read first.
-        let own = Known { crs: own.clone(), path: path.to_owned(), role };
-        let is_first_wrong = known.role == Role::Beside && role == Role::Input;
-        let (wrong, right) = if is_first_wrong { (known, &own) } else { (&own, known) };
-        let [this, that] = [wrong, right].map(|known| known.path.display());
-        return Err(Failure::new(
-            format!("{this}: its coordinates are {}, those of {that} {}", wrong.crs, right.crs),
-            "transform one of them first: ogr2ogr, gdalwarp and pdal do so",
-        ));
-    }
-    if system.as_ref().is_none_or(|known| known.role == Role::Beside && role == Role::Input) {
-        *system = Some(Known { crs: own.clone(), path: path.to_owned(), role });
+    let Some(crs) = crs else { return Ok(()) };
+    let own = Known { crs: crs.clone(), path: path.to_owned(), role };
+    match &command.known {
+        Some(first) if !first.crs.agrees(&own.crs) => return Err(own.differs_from(first)),
+        Some(first) if first.role == Role::Input || role == Role::Beside => {}
+        _ => command.known = Some(own),
     }
     Ok(())
 }
 
 /// Keeps the outputs of the command.
 pub(super) fn expect(outputs: &[(PathBuf, Format)]) {
-    OUTPUTS.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(outputs);
+    command().outputs.extend_from_slice(outputs);
 }
 
 /// The outputs of the command.
 pub(super) fn outputs() -> Vec<(PathBuf, Format)> {
-    OUTPUTS.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    command().outputs.clone()
 }
 
 /// Says which outputs do not tell their system, or not to all readers.
 pub(super) fn tell(quiet: bool) {
-    let Some(Known { crs, .. }) = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner).take() else {
-        return;
-    };
+    let Some(Known { crs, .. }) = command().known.take() else { return };
     let outputs = outputs();
     let names = |said: Said| {
         let those = outputs.iter().filter(|(_, format)| format.says(&crs) == said);

@@ -21,7 +21,7 @@ pub(in crate::plane) struct Weighted {
     /// The indices of the sites at all positions.
     pub(in crate::plane) indices: Vec<u32>,
     /// Other sites at the points of these, with their positions.
-    pub(in crate::plane) others: Vec<(u32, Place)>,
+    pub(in crate::plane) coincident: Vec<(u32, Place)>,
     pub(in crate::plane) counters: Merges,
 }
 
@@ -29,7 +29,7 @@ pub(in crate::plane) struct Weighted {
 pub(in crate::plane) fn weighted(points: &[[f64; 2]], weights: &[f64]) -> Weighted {
     let Sorted { points: ordered, mut indices, cuts, boxes, duplicates } =
         morton::sort(points, &survey(points).0);
-    let others = heaviest_take_positions(&mut indices, duplicates, weights);
+    let coincident = heaviest_take_positions(&mut indices, duplicates, weights);
     let ordered_weights = parallel::collect(indices.len(), |k| weights[indices[k] as usize]);
     let (edges, counters) = build::<Power>(&ordered, &ordered_weights, &cuts, &boxes);
     let n = ordered.len();
@@ -37,7 +37,7 @@ pub(in crate::plane) fn weighted(points: &[[f64; 2]], weights: &[f64]) -> Weight
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
     mesh.number_vertices::<true>(n, |position| position);
     mesh.forget_unused();
-    Weighted { mesh, points: ordered, weights: ordered_weights, indices, others, counters }
+    Weighted { mesh, points: ordered, weights: ordered_weights, indices, coincident, counters }
 }
 
 /// Of sites at one point the heaviest, and of these the first, takes the position; the others are returned.

@@ -48,7 +48,7 @@ impl Regular2 {
         self.base.mesh.names.get_or_insert_with(Names::default).reserve(1);
         let place = self.base.place_for(spot, q);
         self.base.weights[place.index()] = weight;
-        self.locate_under();
+        self.locate_hidden();
         self.settle(v, place, spot);
         Ok(Inserted::New(v))
     }
@@ -78,7 +78,7 @@ impl Regular2 {
         let first = self.ids_given();
         check_count(first + sites.len(), MAX_POINTS)?;
         self.base.mesh.names.get_or_insert_with(Names::default).reserve(sites.len());
-        self.locate_under();
+        self.locate_hidden();
         for i in order::plane::insertion_order(&points, seed).into_iter().map(|i| i as usize) {
             let (spot, _) = self.spot(points[i]);
             let place = self.base.place_for(spot, points[i]);
@@ -135,8 +135,8 @@ impl Regular2 {
 
     /// Takes a site out of the triangulation, and lets those surface that only it hid. It keeps its place.
     fn lift(&mut self, v: VertexId) -> Result<Place, Error> {
-        self.locate_under();
-        if let Some(place) = self.under.take(v) {
+        self.locate_hidden();
+        if let Some(place) = self.hidden_sites.take(v) {
             return Ok(place);
         }
         let place = self.mesh().place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
@@ -144,7 +144,7 @@ impl Regular2 {
         let before = self.dimension();
         if self.base.spanned {
             let star: Vec<_> = self.base.mesh.spokes(place).map(|e| e.triangle()).collect();
-            star.into_iter().for_each(|t| self.under.take_from(t, &mut freed));
+            star.into_iter().for_each(|t| self.hidden_sites.take_from(t, &mut freed));
         }
         self.base.mesh.names().release(v);
         let site = self.base.site(place);
@@ -153,7 +153,7 @@ impl Regular2 {
         let kept = self.base.new_place(place.index(), site.0);
         self.base.weights[kept.index()] = site.1;
         if self.dimension() != before || !self.base.spanned {
-            self.under.take_all(&mut freed);
+            self.hidden_sites.take_all(&mut freed);
             self.hints.take();
         }
         heaviest_first(&mut freed, &self.base.weights, |&site| site);
@@ -167,7 +167,7 @@ impl Regular2 {
         self.settle(v, place, spot);
     }
 
-    /// Makes a site a vertex or puts it under, and with it those whose triangles are gone.
+    /// Makes a site a vertex or hides it, and hides with it the sites whose triangles are gone.
     pub(super) fn settle(&mut self, v: VertexId, place: Place, spot: Spot) {
         let was_spanned = self.base.spanned;
         let mut hidden = Vec::new();
@@ -180,7 +180,7 @@ impl Regular2 {
                 if v < there {
                     names.release(there);
                     names.bind(v, w);
-                    self.under.equal_instead(there, v);
+                    self.hidden_sites.equal_instead(there, v);
                 }
                 return self.put_under(v.max(there), place, spot);
             }
@@ -190,9 +190,9 @@ impl Regular2 {
         if was_spanned {
             let (star, _) = self.base.cavity.last();
             let (_, spare) = self.base.cavity.swallowed();
-            star.iter().chain(spare).for_each(|&t| self.under.take_from(t, &mut moved));
+            star.iter().chain(spare).for_each(|&t| self.hidden_sites.take_from(t, &mut moved));
         } else {
-            self.under.take_all(&mut moved);
+            self.hidden_sites.take_all(&mut moved);
             self.hints.take();
         }
         let names = self.base.mesh.names();
@@ -228,16 +228,16 @@ impl Regular2 {
             Spot::Triangle(t) => (None, Some(t)),
             _ => (None, None),
         };
-        self.under.put(v, place, equal.map(|w| mesh.name(w)), cell);
+        self.hidden_sites.put(v, place, equal.map(|w| mesh.name(w)), cell);
     }
 
-    /// Finds the triangles of the sites under them, at the first change after a construction.
-    pub(super) fn locate_under(&mut self) {
-        if self.under.are_known {
+    /// Finds the triangles of the hidden sites, at the first change after a construction.
+    pub(super) fn locate_hidden(&mut self) {
+        if self.hidden_sites.are_known {
             return;
         }
-        self.under.are_known = true;
-        let sites: Vec<_> = self.under.all().collect();
+        self.hidden_sites.are_known = true;
+        let sites: Vec<_> = self.hidden_sites.all().collect();
         for (id, place) in sites {
             let (spot, _) = self.spot(self.base.points[place.index()]);
             self.put_under(id, place, spot);

@@ -31,7 +31,7 @@ impl Regular2 {
     pub fn check(&self) -> Result<(), RegularFlaw<Flaw2>> {
         self.mesh().check().map_err(Flaw2::from)?;
         check_geometry(&self.base)?;
-        for (v, place) in self.under.all() {
+        for (v, place) in self.hidden_sites.all() {
             let site = self.base.site(place);
             let (spot, _) = self.spot(site.0);
             let corners = |k: usize, t| self.base.site(self.base.mesh.places(t)[k]);
@@ -55,7 +55,7 @@ impl Regular2 {
                 return Err(RegularFlaw::Hidden(v));
             }
             let equal = equal.map(|w| self.mesh().name(w));
-            if self.under.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
+            if self.hidden_sites.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
                 return Err(RegularFlaw::Duplicate(v));
             }
         }

@@ -66,7 +66,7 @@ pub use power::{Jacobian2, Power2};
 #[derive(Clone, Debug)]
 pub struct Regular2 {
     base: Layer<Power>,
-    under: HiddenSites<TriangleId>,
+    hidden_sites: HiddenSites<TriangleId>,
     counters: Counters,
     hints: OnceLock<Tree<EdgeId>>,
     /// The number of vertices when the hints were made.
@@ -77,7 +77,7 @@ impl Default for Regular2 {
     fn default() -> Self {
         Self {
             base: Layer::default(),
-            under: HiddenSites::default(),
+            hidden_sites: HiddenSites::default(),
             counters: Counters::Incremental(Work::default()),
             hints: OnceLock::new(),
             hinted: 0,
@@ -162,17 +162,17 @@ impl Regular2 {
     /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
     #[doc(alias = "hidden_vertices")]
     pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.under.hidden()
+        self.hidden_sites.hidden()
     }
 
     /// Whether a site is hidden.
     pub fn is_hidden(&self, v: VertexId) -> bool {
-        self.under.is_hidden(v)
+        self.hidden_sites.is_hidden(v)
     }
 
     /// Sites that equal a vertex given earlier, their weights too, by increasing id.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
-        self.under.duplicates()
+        self.hidden_sites.duplicates()
     }
 
     /// Point and weight of a site, hidden or not; none if it was removed or never given.
@@ -181,7 +181,7 @@ impl Regular2 {
     }
 
     fn place(&self, v: VertexId) -> Option<Place> {
-        self.mesh().place(v).or_else(|| self.under.place(v))
+        self.mesh().place(v).or_else(|| self.hidden_sites.place(v))
     }
 
     /// The corners of all triangles, counter-clockwise.

@@ -57,10 +57,10 @@ impl Regular2 {
             return Err(Error::Length { expected: self.ids_given(), found: weights.len() });
         }
         check_weights(weights)?;
-        self.locate_under();
-        let Self { base, under, .. } = self;
+        self.locate_hidden();
+        let Self { base, hidden_sites, .. } = self;
         let vertices = base.mesh.vertices().filter_map(|v| Some((v, base.mesh.place(v)?)));
-        for (v, place) in vertices.chain(under.all()) {
+        for (v, place) in vertices.chain(hidden_sites.all()) {
             base.weights[place.index()] = weights[v.index()];
         }
         let mut loose = Vec::new();
@@ -130,22 +130,23 @@ impl Regular2 {
     /// Loosens what is above the triangles of some edges.
     fn loosen(&mut self, edges: impl IntoIterator<Item = EdgeId>, near: EdgeId, loose: &mut Vec<Loose>) {
         let mut taken = Vec::new();
-        edges.into_iter().for_each(|e| self.under.take_from(e.triangle(), &mut taken));
+        edges.into_iter().for_each(|e| self.hidden_sites.take_from(e.triangle(), &mut taken));
         loose.extend(taken.into_iter().map(|(id, place)| Loose { id, place, near }));
     }
 
     /// Loosens what is below its triangle now, and what is at the point of a vertex.
     fn take_surfacing(&mut self, loose: &mut Vec<Loose>) {
-        let Self { base, under, .. } = self;
+        let Self { base, hidden_sites, .. } = self;
         let is_above = |place: Place, t: TriangleId| {
             let (corners, q) = (base.mesh.places(t), base.site(place));
             let is_corner = |p: &Place| !p.is_ghost() && base.points[p.index()] == q.0;
             !corners.iter().any(is_corner) && !Power::conflicts(corners, |k| base.site(corners[k]), q)
         };
-        let surfacing = under.all_above().filter(|&(_, place, t)| t.is_none_or(|t| !is_above(place, t)));
+        let surfacing =
+            hidden_sites.all_above().filter(|&(_, place, t)| t.is_none_or(|t| !is_above(place, t)));
         let surfacing: Vec<_> = surfacing.collect();
         for (id, place, t) in surfacing {
-            under.take(id);
+            hidden_sites.take(id);
             loose.push(Loose { id, place, near: t.map_or(EdgeId::NONE, |t| t.edge(0)) });
         }
     }
@@ -165,7 +166,8 @@ impl Regular2 {
     fn build_anew(&mut self, loose: Vec<Loose>) {
         let vertices = self.mesh().vertices().filter_map(|v| Some((v, self.mesh().place(v)?)));
         let loose = loose.into_iter().map(|site| (site.id, site.place));
-        let mut sites: Vec<(VertexId, Place)> = vertices.chain(self.under.all()).chain(loose).collect();
+        let mut sites: Vec<(VertexId, Place)> =
+            vertices.chain(self.hidden_sites.all()).chain(loose).collect();
         sites.sort_unstable();
         let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|&(_, p)| self.base.site(p)).unzip();
         let given = self.ids_given();
@@ -173,7 +175,7 @@ impl Regular2 {
         if sites.len() < given {
             let ids: Vec<VertexId> = sites.into_iter().map(|(v, _)| v).collect();
             self.base.mesh.names().rename(&ids, given);
-            self.under.rename(&ids);
+            self.hidden_sites.rename(&ids);
         }
     }
 }

@@ -38,9 +38,9 @@ pub(in crate::space) fn assemble((mut layer, rest): (Layer<f64>, Rest)) -> Regul
     let mut sites: Vec<(VertexId, Place)> = rest.hidden.into_iter().map(|p| (names.of(p), p)).collect();
     sites.iter().for_each(|&(id, _)| names.release(id));
     sites.extend(equal.iter().map(|&(id, place, _)| (id, place)));
-    let mut under = HiddenSites::new(sites);
+    let mut hidden_sites = HiddenSites::new(sites);
     for (id, _, w) in equal {
-        under.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
+        hidden_sites.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
     }
-    Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, ..Regular3::default() }
+    Regular3 { hinted: layer.mesh.vertex_count, base: layer, hidden_sites, ..Regular3::default() }
 }

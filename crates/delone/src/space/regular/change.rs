@@ -43,7 +43,7 @@ impl Regular3 {
         {
             return Ok(Inserted::Existing(self.mesh().name(w)));
         }
-        self.locate_under();
+        self.locate_hidden();
         let place = self.base.keep((q, weight));
         let v = VertexId::new(given);
         self.base.mesh.names.reserve(1);
@@ -81,7 +81,7 @@ impl Regular3 {
         let first = self.ids_given();
         check_count(first + sites.len(), MAX_POINTS_IN_SPACE)?;
         self.base.mesh.names.reserve(sites.len());
-        self.locate_under();
+        self.locate_hidden();
         let along = order::space::hilbert(points.len(), &|i| points[i as usize]);
         for k in order::space::rounds(points.len(), seed) {
             let i = along[k as usize] as usize;
@@ -171,7 +171,7 @@ impl Regular3 {
         if alive.len() < weights.len() {
             let ids: Vec<VertexId> = alive.into_iter().map(|(v, _)| v).collect();
             anew.base.mesh.names.rename(&ids, weights.len());
-            anew.under.rename(&ids);
+            anew.hidden_sites.rename(&ids);
         }
         *self = anew;
         Ok(Reweighed::Rebuilt)
@@ -179,8 +179,8 @@ impl Regular3 {
 
     /// Takes a site out of the triangulation, and lets those surface that only it hid. It keeps its place.
     fn lift(&mut self, v: VertexId) -> Result<Place, Error> {
-        self.locate_under();
-        if let Some(place) = self.under.take(v) {
+        self.locate_hidden();
+        if let Some(place) = self.hidden_sites.take(v) {
             return Ok(place);
         }
         let place = self.mesh().place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
@@ -195,9 +195,9 @@ impl Regular3 {
         }
         let kept = self.base.keep(site);
         let mut freed = Vec::new();
-        star.into_iter().for_each(|t| self.under.take_from(t, &mut freed));
+        star.into_iter().for_each(|t| self.hidden_sites.take_from(t, &mut freed));
         if self.dimension() != before {
-            self.under.take_all(&mut freed);
+            self.hidden_sites.take_all(&mut freed);
             self.hints.take();
         }
         heaviest_first(&mut freed, &self.base.weights, |&site| site);
@@ -211,7 +211,7 @@ impl Regular3 {
         Error::TooManyTetrahedra { most: self.base.mesh.most.0 }
     }
 
-    /// Makes a site a vertex or puts it under, and with it those whose tetrahedra are gone.
+    /// Makes a site a vertex or hides it, and hides with it the sites whose tetrahedra are gone.
     fn settle(&mut self, v: VertexId, place: Place) -> Result<(), Error> {
         let site = self.base.site(place);
         let mut moved: Vec<(VertexId, Place)> = Vec::new();
@@ -223,13 +223,13 @@ impl Regular3 {
                     return Ok(());
                 }
                 _ if !self.base.conflicts(t, site) => {
-                    self.under.put(v, place, None, Some(t));
+                    self.hidden_sites.put(v, place, None, Some(t));
                     return Ok(());
                 }
                 _ => {}
             }
             self.base.insert(place, t, &mut ()).ok_or_else(|| self.full())?;
-            self.base.cavity.last().for_each(|t| self.under.take_from(t, &mut moved));
+            self.base.cavity.last().for_each(|t| self.hidden_sites.take_from(t, &mut moved));
             let names = &mut self.base.mesh.names;
             for &p in self.base.cavity.hidden() {
                 let id = names.of(p);
@@ -238,7 +238,7 @@ impl Regular3 {
             }
         } else {
             self.base.rebuild(Some(place)).ok_or_else(|| self.full())?;
-            self.under.take_all(&mut moved);
+            self.hidden_sites.take_all(&mut moved);
             self.hints.take();
         }
         self.base.mesh.names.bind(v, place);
@@ -259,7 +259,7 @@ impl Regular3 {
     fn put_at(&mut self, id: VertexId, p: Place, t: TetrahedronId) {
         let (q, weight) = self.base.site(p);
         let equal = self.base.vertex_at(t, q).filter(|w| self.base.weights[w.index()] == weight);
-        self.under.put(id, p, equal.map(|w| self.mesh().name(w)), Some(t));
+        self.hidden_sites.put(id, p, equal.map(|w| self.mesh().name(w)), Some(t));
     }
 
     /// The first given of equal sites is the vertex.
@@ -269,18 +269,18 @@ impl Regular3 {
             let names = &mut self.base.mesh.names;
             names.release(there);
             names.bind(v, w);
-            self.under.equal_instead(there, v);
+            self.hidden_sites.equal_instead(there, v);
         }
-        self.under.put(v.max(there), place, Some(v.min(there)), Some(t));
+        self.hidden_sites.put(v.max(there), place, Some(v.min(there)), Some(t));
     }
 
-    /// Finds the tetrahedra of the sites under them, at the first change after a construction.
-    fn locate_under(&mut self) {
-        if self.under.are_known {
+    /// Finds the tetrahedra of the hidden sites, at the first change after a construction.
+    fn locate_hidden(&mut self) {
+        if self.hidden_sites.are_known {
             return;
         }
-        self.under.are_known = true;
-        let sites: Vec<_> = self.under.all().collect();
+        self.hidden_sites.are_known = true;
+        let sites: Vec<_> = self.hidden_sites.all().collect();
         for (id, place) in sites {
             let t = self.cell_at(self.base.points[place.index()]);
             self.put_at(id, place, t);

@@ -33,7 +33,7 @@ impl Regular3 {
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.
     pub fn check(&self) -> Result<(), RegularFlaw<Flaw3>> {
         check_geometry(&self.base)?;
-        for (v, place) in self.under.all() {
+        for (v, place) in self.hidden_sites.all() {
             let site = self.base.site(place);
             if !self.base.is_in_span(site.0) {
                 return Err(RegularFlaw::Hidden(v));
@@ -51,7 +51,7 @@ impl Regular3 {
                 return Err(RegularFlaw::Hidden(v));
             }
             let equal = there.filter(|w| self.base.weights[w.index()] == site.1).map(|w| self.mesh().name(w));
-            if self.under.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
+            if self.hidden_sites.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
                 return Err(RegularFlaw::Duplicate(v));
             }
         }

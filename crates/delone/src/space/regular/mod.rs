@@ -55,7 +55,7 @@ use crate::tally::{Counters, Work};
 #[derive(Clone, Debug, Default)]
 pub struct Regular3 {
     base: Layer<f64>,
-    under: HiddenSites<TetrahedronId>,
+    hidden_sites: HiddenSites<TetrahedronId>,
     work: Work,
     hints: OnceLock<Tree<TetrahedronId>>,
     /// The number of vertices when the hints were made.
@@ -139,22 +139,22 @@ impl Regular3 {
     /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
     #[doc(alias = "hidden_vertices")]
     pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.under.hidden()
+        self.hidden_sites.hidden()
     }
 
     /// Whether a site is hidden.
     pub fn is_hidden(&self, v: VertexId) -> bool {
-        self.under.is_hidden(v)
+        self.hidden_sites.is_hidden(v)
     }
 
     /// Sites that equal a vertex given earlier, their weights too, by increasing id.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
-        self.under.duplicates()
+        self.hidden_sites.duplicates()
     }
 
     /// Point and weight of a site, hidden or not; none if it was removed or never given.
     pub fn site(&self, v: VertexId) -> Option<([f64; 3], f64)> {
-        self.mesh().place(v).or_else(|| self.under.place(v)).map(|place| self.base.site(place))
+        self.mesh().place(v).or_else(|| self.hidden_sites.place(v)).map(|place| self.base.site(place))
     }
 
     /// The finite tetrahedra, by id. None below space.
