@@ -28,6 +28,9 @@ const DECIDE: [&str; 9] =
 /// The files that write the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];
 
+/// The file that writes the records of tetrahedra.
+const SURGEON_IN_SPACE: &str = "mesh/tetrahedra/surgery.rs";
+
 /// Names that say nothing about what is inside.
 const EMPTY_NAMES: [&str; 7] = ["util", "utils", "common", "helpers", "core", "misc", "shared"];
 
@@ -164,30 +167,74 @@ fn rooms_stand_in_no_circle() {
     }
 }
 
-/// The corners and twins of triangles are written in one room; only the construction in bulk has arrays of its own.
+/// Whether a line writes what has a name, or an element of it.
+fn is_written(line: &str, name: &str) -> bool {
+    line.match_indices(name).any(|(at, _)| {
+        // Behind its indices.
+        let mut depth = i32::from(name.ends_with('['));
+        let behind = line[at + name.len()..].find(|c| {
+            depth += i32::from(c == '[') - i32::from(c == ']');
+            depth == 0 && c != ']'
+        });
+        behind.is_some_and(|k| line[at + name.len() + k..].starts_with(" = "))
+    })
+}
+
+/// Whether a line writes the record of a tetrahedron, or borrows it to be written.
+fn writes_tetrahedron(line: &str) -> bool {
+    let borrowed = line.split_once("&mut ").map_or("", |(_, rest)| rest);
+    ["cells[", ".corners", ".across"].iter().any(|name| is_written(line, name) || borrowed.contains(name))
+        || ["cells.iter_mut(", "cells.swap"].iter().any(|call| line.contains(call))
+}
+
+/// The corners and twins of triangles are written in one room; only the construction in bulk has arrays of its own. Those of
+/// tetrahedra are written in one file.
 #[test]
 fn surgery_has_one_room() {
     let (source, found) = sources("delone");
-    let mut seen = 0;
+    let (mut seen, mut operations) = (0, 0);
     for path in &found {
         let inside = path.strip_prefix(&source).expect("below src").to_string_lossy().replace('\\', "/");
         if inside.ends_with("tests.rs") {
             continue;
         }
         let code = code_of(path);
-        let writes = [".origin = ", ".twin = ", ".edges["].iter().any(|write| {
-            code.lines().any(|line| {
-                line.split_once(write).is_some_and(|(_, rest)| {
-                    !write.ends_with('[')
-                        || rest.split_once(']').is_some_and(|(_, rest)| rest.contains(" = "))
-                })
-            })
-        });
+        let writes = |name: &&str| code.lines().any(|line| is_written(line, name));
+        let is_surgeon = [".origin", ".twin", ".edges["].iter().any(writes);
         let may = SURGEONS.iter().any(|place| inside.starts_with(place));
-        assert!(!writes || may, "{inside} writes the records of triangles: that is surgery");
-        seen += usize::from(writes);
+        assert!(!is_surgeon || may, "{inside} writes the records of triangles: that is surgery");
+        seen += usize::from(is_surgeon);
+        // Facets of hulls have links of their own.
+        let knows = inside.starts_with("space/") || code.contains("Mesh3") || code.contains("Tetrahedron");
+        let in_space = knows && !inside.starts_with("hull/");
+        for line in code.lines().filter(|line| in_space && writes_tetrahedron(line)) {
+            assert!(inside == SURGEON_IN_SPACE, "{inside} writes records of tetrahedra: {}", line.trim());
+            operations += 1;
+        }
     }
     assert!(seen >= 3, "only {seen} surgeons were seen");
+    assert!(operations >= 8, "only {operations} operations on tetrahedra were seen");
+}
+
+#[test]
+fn the_reader_of_writes_reads() {
+    for line in [
+        "self.cells[t.index()] = cell;",
+        "cells[t.index()].across[k] = g;",
+        "memory.cells[[1, 2][k]].corners = [a, b, c, d];",
+        "let across = &mut mesh.cells[t.index()].across;",
+        "mesh.cells.iter_mut().for_each(|cell| cell.corners = corners);",
+    ] {
+        assert!(writes_tetrahedron(line), "{line}");
+    }
+    for line in [
+        "let across = cells[t.index()].across;",
+        "if cells[i].corners == other { cells = Vec::new(); }",
+        "let k = mesh.cells[t.index()].across[k];",
+        "mesh.cells = Vec::new();",
+    ] {
+        assert!(!writes_tetrahedron(line), "{line}");
+    }
 }
 
 #[test]

@@ -12,6 +12,7 @@
 
 mod check;
 mod iterate;
+pub(crate) mod surgery;
 
 pub use check::MeshFlaw3;
 pub use iterate::AroundEdge;
@@ -35,13 +36,6 @@ pub(crate) struct Tetrahedron {
 impl Tetrahedron {
     /// A slot that is not in use.
     pub(crate) const FREE: Self = Self { corners: [Place::GHOST; 4], across: [FacetId::NONE; 4] };
-}
-
-/// Glues two facets to each other.
-#[inline]
-pub(crate) fn link(cells: &mut [Tetrahedron], f: FacetId, g: FacetId) {
-    cells[f.tetrahedron().index()].across[f.corner()] = g;
-    cells[g.tetrahedron().index()].across[g.corner()] = f;
 }
 
 /// How many tetrahedra there may be.
@@ -176,47 +170,6 @@ impl Mesh3 {
     /// How many more tetrahedra there may be.
     pub(crate) fn room(&self) -> usize {
         self.free.len() + self.most.0.saturating_sub(self.cells.len())
-    }
-
-    /// A tetrahedron to be filled in, if there is room.
-    pub(crate) fn new_cell(&mut self) -> Option<TetrahedronId> {
-        self.free.pop().or_else(|| {
-            (self.cells.len() < self.most.0).then(|| {
-                self.cells.push(Tetrahedron::FREE);
-                self.marks.push(0);
-                TetrahedronId::new(self.cells.len() - 1)
-            })
-        })
-    }
-
-    /// Gives a tetrahedron back.
-    pub(crate) fn free_cell(&mut self, t: TetrahedronId) {
-        self.cells[t.index()] = Tetrahedron::FREE;
-        self.free.push(t);
-    }
-
-    /// Moves the last tetrahedra into free slots, given in increasing order, so that none of these is left. Marks stay as
-    /// they are.
-    pub(crate) fn pack(&mut self, free: &[TetrahedronId]) {
-        for &to in free {
-            while self.cells.last().is_some_and(|cell| cell.corners[0].is_ghost()) {
-                self.cells.pop();
-            }
-            if to.index() >= self.cells.len() {
-                break;
-            }
-            // Its slot is taken by the last.
-            self.cells.swap_remove(to.index());
-            let Tetrahedron { corners, across } = self.cells[to.index()];
-            across.into_iter().enumerate().for_each(|(k, f)| self.link(to.facet(k), f));
-            corners.into_iter().filter(|p| !p.is_ghost()).for_each(|p| self.incident[p.index()] = to);
-        }
-    }
-
-    /// Glues two facets to each other.
-    #[inline]
-    pub(crate) fn link(&mut self, f: FacetId, g: FacetId) {
-        link(&mut self.cells, f, g);
     }
 
     /// The tetrahedra at a place, ghosts included, into a buffer. O(d log d) for d of them.

@@ -12,13 +12,13 @@
 //! cuts, a tenth at most as far as samples can tell.
 
 use super::super::layer::Layer;
-use super::super::layer::hole::turned;
 use super::super::layer::kernel::{Lift, Region};
 use super::cut::{Sites, cut, uncut};
 use super::part::{Done, Part};
 use super::{Rest, room, triangulate_runs};
 use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::surgery::turned;
 use crate::mesh::tetrahedra::{Mesh3, Tetrahedron};
 use crate::parallel;
 use crate::tally::Tally;
@@ -114,7 +114,7 @@ fn join<W: Lift, T: Tally + Default + Send>(
     let mut slots: Vec<TetrahedronId> =
         parts.iter().flat_map(|part| &part.free).chain(border).copied().collect();
     let mesh = &mut layer.mesh;
-    slots.iter().for_each(|t| mesh.cells[t.index()] = Tetrahedron::FREE);
+    slots.iter().for_each(|&t| mesh.records().clear(t));
     slots.extend(parts.iter().flat_map(|part| part.unused.clone()).map(TetrahedronId::new));
     if slots.len() < inside.len() {
         return None;
@@ -128,12 +128,10 @@ fn join<W: Lift, T: Tally + Default + Send>(
             TetrahedronId::NONE => FacetId::NONE,
             there => there.facet(f.corner()),
         });
-        mesh.cells[to.index()] = Tetrahedron { corners: cell.corners.map(place), across };
-        let corners = mesh.cells[to.index()].corners;
-        corners.into_iter().filter(|p| !p.is_ghost()).for_each(|p| mesh.incident[p.index()] = to);
+        mesh.records().put(to, Tetrahedron { corners: cell.corners.map(place), across });
     }
     for &(f, outside) in &walls {
-        mesh.link(becomes[f.tetrahedron().index()].facet(f.corner()), outside);
+        mesh.records().link(becomes[f.tetrahedron().index()].facet(f.corner()), outside);
     }
     let left = &mut slots[inside.len()..];
     left.sort_unstable();

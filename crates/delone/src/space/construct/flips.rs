@@ -21,8 +21,8 @@
 //! New tetrahedra with four coplanar corners come and go, and none is left in the end, when all that was in conflict is gone.
 //! They stay in the history, where they contain nothing.
 //!
-//! Cost: O(n log n) expected where the triangulation of each sample is linear in its size; all tetrahedra ever made, fifty
-//! and more a point of 40 bytes, are kept until the end.
+//! Cost: O(n log n) expected where the triangulation of each sample is linear in its size; the corners of all tetrahedra ever
+//! made, fifty and more a point of 24 bytes, are kept until the end.
 
 use std::cmp::Ordering;
 
@@ -31,7 +31,6 @@ use delone_predicates::{lexicographic3, orient3d_moved};
 use super::Rest;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Mesh3;
-use crate::mesh::tetrahedra::Tetrahedron;
 use crate::order::random::SplitMix;
 use crate::sorting;
 use crate::space::layer::Layer;
@@ -42,11 +41,8 @@ use crate::tally::Tally;
 #[cfg(test)]
 mod tests;
 
-/// The vertex at infinity.
-const GHOST: u32 = u32::MAX;
-
-/// The largest number of tetrahedra whose indices fit, with room for those of one flip.
-const MAX_TETRAHEDRA: usize = u32::MAX as usize - 8;
+/// The largest number of tetrahedra whose numbers fit, with room for those of one flip.
+const MAX_EVER: usize = u32::MAX as usize - 8;
 
 /// Makes all sites of a layer vertices, but for those that others hide or equal. Names are left alone. `None` if there is no
 /// room.
@@ -58,13 +54,12 @@ pub(in crate::space) fn build<W: Lift, T: Tally>(
     let (order, mut rest) = random_order(layer, seed);
     let first = layer.begin(&order)?;
     let Some(&a) = first.first() else { return Some(rest) };
-    let root = layer.mesh.cells[layer.mesh.incident[a.index()].index()].corners;
-    let mut flips = Flips::new(&layer.points, &layer.weights, root);
-    tally.created(flips.cells.len());
-    for p in order.iter().copied().filter(|&i| !first.contains(&Place::new(i as usize))) {
+    let root = layer.mesh.incident[a.index()];
+    let mut flips = Flips::new(&layer.points, &layer.weights, &mut layer.mesh, root);
+    tally.created(flips.history.len());
+    for p in order.iter().map(|&i| Place::new(i as usize)).filter(|p| !first.contains(p)) {
         flips.insert(p, tally)?;
     }
-    flips.close(&mut layer.mesh)?;
     rest.hidden.append(&mut flips.hidden);
     layer.mesh.vertex_count =
         layer.points.len() - layer.scaffold.len() - rest.equal.len() - rest.hidden.len();
@@ -95,82 +90,66 @@ fn random_order<W: Lift>(layer: &Layer<W>, seed: u64) -> (Vec<u32>, Rest) {
     (order, rest)
 }
 
-/// A tetrahedron, present or gone.
+/// A tetrahedron that is or was.
 #[derive(Clone, Copy, Debug)]
-struct Cell {
-    corners: [u32; 4],
-    /// Across from each corner.
-    across: [u32; 4],
-    /// The first of those that took its place, which are numbered in a row, and how many they are.
+struct Past {
+    corners: [Place; 4],
+    /// The first of those that took its place, which are numbered in a row, and how many they are. None while it is there: then its
+    /// slot.
     next: u32,
     count: u32,
-}
-
-impl Cell {
-    fn position(&self, v: u32) -> Option<usize> {
-        self.corners.iter().position(|&w| w == v)
-    }
-
-    fn is_present(&self) -> bool {
-        self.count == 0
-    }
-
-    /// The corners, one of them replaced.
-    fn with(&self, k: usize, v: u32) -> [u32; 4] {
-        let mut corners = self.corners;
-        corners[k] = v;
-        corners
-    }
 }
 
 /// See the module.
 struct Flips<'a, W> {
     points: &'a [[f64; 3]],
     weights: &'a [W],
-    cells: Vec<Cell>,
+    mesh: &'a mut Mesh3,
+    /// All tetrahedra that ever were, by number.
+    history: Vec<Past>,
+    /// For each slot of the mesh the number of the tetrahedron there.
+    numbers: Vec<u32>,
     /// The corners of the first tetrahedron. The center is in its inside, infinitesimally near the first, much less so the edge to
     /// the second, and so on.
     root: [[f64; 3]; 4],
-    /// Tetrahedra at the new point, across from which is to be tested.
+    /// Tetrahedra at the new point, across from which is to be tested, by number.
     pending: Vec<u32>,
     /// Sites that were or might have been vertices, and are none.
     hidden: Vec<Place>,
 }
 
 impl<'a, W: Lift> Flips<'a, W> {
-    /// The first tetrahedron, its corners in positive order, and the four beyond it.
-    fn new(points: &'a [[f64; 3]], weights: &'a [W], root: [Place; 4]) -> Self {
-        let corners = root.map(|p| p.index() as u32);
-        let root = root.map(|p| points[p.index()]);
-        let mut first = vec![corners];
-        for k in 0..4 {
-            let mut ghost = corners;
-            ghost[k] = GHOST;
-            ghost.swap((k + 1) % 4, (k + 2) % 4);
-            first.push(ghost);
-        }
-        let (cells, pending, hidden) = (Vec::new(), Vec::new(), Vec::new());
-        let mut flips = Self { points, weights, cells, root, pending, hidden };
-        flips.replace(&[], &first);
+    /// A mesh of one tetrahedron, and the four beyond it.
+    fn new(points: &'a [[f64; 3]], weights: &'a [W], mesh: &'a mut Mesh3, first: TetrahedronId) -> Self {
+        let root = mesh.cells[first.index()].corners.map(|p| points[p.index()]);
+        let all: Vec<TetrahedronId> = mesh.cells().collect();
+        let (history, numbers, pending, hidden) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut flips = Self { points, weights, mesh, history, numbers, root, pending, hidden };
+        flips.note(&all);
         flips
     }
 
-    fn site(&self, v: u32) -> ([f64; 3], W) {
-        let place = Place::new(v as usize);
-        (self.points[place.index()], W::at(self.weights, place))
+    fn site(&self, p: Place) -> ([f64; 3], W) {
+        (self.points[p.index()], W::at(self.weights, p))
+    }
+
+    /// The slot of a tetrahedron, if it is still there.
+    fn slot(&self, number: u32) -> Option<TetrahedronId> {
+        let past = self.history[number as usize];
+        (past.count == 0).then(|| TetrahedronId::new(past.next as usize))
     }
 
     /// Whether corners are in positive order if one of them, not at infinity, is at a point that is moved. One that is at infinity
     /// is across the others from the center.
-    fn is_positive(&self, mut corners: [u32; 4], k: usize, q: [f64; 3]) -> bool {
+    fn is_positive(&self, mut corners: [Place; 4], k: usize, q: [f64; 3]) -> bool {
         corners.swap(k, 3);
         let mut is_odd = k < 3;
-        let infinite = corners[..3].iter().position(|&v| v == GHOST);
+        let infinite = corners[..3].iter().position(|p| p.is_ghost());
         if let Some(j) = infinite {
             corners.swap(j, 2);
             is_odd ^= j == 2;
         }
-        let at = |k: usize| self.points[corners[k] as usize];
+        let at = |k: usize| self.points[corners[k].index()];
         let side = match infinite {
             Some(_) => orient3d_moved(at(0), at(1), &self.root, q),
             None => orient3d_moved(at(0), at(1), &[at(2)], q),
@@ -179,176 +158,131 @@ impl<'a, W: Lift> Flips<'a, W> {
     }
 
     /// Whether a tetrahedron contains a point that is moved.
-    fn holds<T: Tally>(&self, t: u32, q: [f64; 3], tally: &mut T) -> bool {
-        let corners = self.cells[t as usize].corners;
+    fn holds<T: Tally>(&self, number: u32, q: [f64; 3], tally: &mut T) -> bool {
+        let corners = self.history[number as usize].corners;
         (0..4).all(|k| {
             tally.orientation();
             self.is_positive(corners, k, q)
         })
     }
 
-    /// The present tetrahedron that contains a point, through all that contained it.
-    fn trace<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> u32 {
+    /// The tetrahedron that contains a point, through all that contained it.
+    fn trace<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> TetrahedronId {
         let (mut first, mut count) = (0, 5);
         loop {
             tally.visited();
             // One of them contains it: the last need not be asked.
             let last = first + count - 1;
-            let t = (first..last).find(|&t| self.holds(t, q, tally)).unwrap_or(last);
-            let cell = self.cells[t as usize];
-            if cell.is_present() {
+            let number = (first..last).find(|&number| self.holds(number, q, tally)).unwrap_or(last);
+            if let Some(t) = self.slot(number) {
                 return t;
             }
-            (first, count) = (cell.next, cell.count);
+            let past = self.history[number as usize];
+            (first, count) = (past.next, past.count);
         }
     }
 
-    fn is_hit(&self, t: u32, q: ([f64; 3], W)) -> bool {
-        let corners = self.cells[t as usize].corners.map(|v| (v != GHOST).then(|| self.site(v)));
-        is_in_sphere(corners, &self.root, q)
+    fn is_hit(&self, t: TetrahedronId, q: ([f64; 3], W)) -> bool {
+        let corners = self.mesh.cells[t.index()].corners;
+        is_in_sphere(corners.map(|p| (!p.is_ghost()).then(|| self.site(p))), &self.root, q)
     }
 
-    /// New tetrahedra with the border of old ones.
-    fn replace(&mut self, old: &[u32], new: &[[u32; 4]]) {
-        let facet = |corners: [u32; 4], k: usize| {
-            let mut facet = corners;
-            facet[k] = GHOST - 1;
-            facet.sort_unstable();
-            facet
-        };
-        let first = self.cells.len() as u32;
-        // What is to be glued: facets that wait for the other side.
-        let mut open: Vec<([u32; 4], u32, usize)> = Vec::new();
-        for &t in old {
-            let Cell { corners, across, .. } = self.cells[t as usize];
-            for (k, u) in across.into_iter().enumerate().filter(|(_, u)| !old.contains(u)) {
-                let outside = self.cells[u as usize];
-                let border = facet(corners, k);
-                let j = (0..4).find(|&j| facet(outside.corners, j) == border).unwrap_or(0);
-                open.push((border, u, j));
-            }
-            (self.cells[t as usize].next, self.cells[t as usize].count) = (first, new.len() as u32);
+    /// Numbers new tetrahedra.
+    fn note(&mut self, new: &[TetrahedronId]) {
+        self.numbers.resize(self.mesh.slot_count(), 0);
+        for &t in new {
+            let number = self.history.len() as u32;
+            let corners = self.mesh.cells[t.index()].corners;
+            self.history.push(Past { corners, next: t.index() as u32, count: 0 });
+            self.numbers[t.index()] = number;
+            self.pending.push(number);
         }
-        for (t, &corners) in (first..).zip(new) {
-            self.cells.push(Cell { corners, across: [t; 4], next: 0, count: 0 });
-            for k in 0..4 {
-                let side = facet(corners, k);
-                if let Some(found) = open.iter().position(|other| other.0 == side) {
-                    let (_, u, j) = open.swap_remove(found);
-                    self.cells[t as usize].across[k] = u;
-                    self.cells[u as usize].across[j] = t;
-                } else {
-                    open.push((side, t, k));
-                }
-            }
-            self.pending.push(t);
+    }
+
+    /// Some tetrahedra give way to others. `None` if they are too many.
+    fn replace<T: Tally>(
+        &mut self,
+        old: &[TetrahedronId],
+        new: impl ExactSizeIterator<Item = [Place; 4]>,
+        tally: &mut T,
+    ) -> Option<()> {
+        let (next, count) = (self.history.len() as u32, new.len() as u32);
+        let made = self.mesh.flip(old, new).filter(|_| self.history.len() <= MAX_EVER)?;
+        for t in old {
+            let past = &mut self.history[self.numbers[t.index()] as usize];
+            (past.next, past.count) = (next, count);
         }
-        debug_assert!(open.is_empty(), "new tetrahedra fill the place of the old ones");
+        self.note(&made);
+        tally.destroyed(old.len());
+        tally.created(made.len());
+        Some(())
     }
 
     /// Makes a site a vertex, or finds that it is hidden. `None` if there are too many tetrahedra, or if there were a conflict that
     /// no flip ends.
-    fn insert<T: Tally>(&mut self, p: u32, tally: &mut T) -> Option<()> {
+    fn insert<T: Tally>(&mut self, p: Place, tally: &mut T) -> Option<()> {
         let q = self.site(p);
         let t = self.trace(q.0, tally);
         if W::HIDES {
             tally.in_circle();
             if !self.is_hit(t, q) {
-                self.hidden.push(Place::new(p as usize));
+                self.hidden.push(p);
                 return Some(());
             }
         }
-        let cell = self.cells[t as usize];
+        let corners = self.mesh.cells[t.index()].corners;
         self.pending.clear();
-        self.replace(&[t], &[0, 1, 2, 3].map(|k| cell.with(k, p)));
-        tally.destroyed(1);
-        tally.created(4);
+        self.replace(&[t], (0..4).map(|k| with(corners, k, p)), tally)?;
         let mut waiting = Vec::new();
-        while let Some(t) = self.pending.pop() {
-            let cell = self.cells[t as usize];
-            let Some(i) = cell.position(p).filter(|_| cell.is_present()) else { continue };
+        while let Some(number) = self.pending.pop() {
+            let Some(t) = self.slot(number) else { continue };
+            let cell = self.mesh.cells[t.index()];
+            let Some(i) = cell.corners.iter().position(|&v| v == p) else { continue };
             tally.in_circle();
-            if self.is_hit(cell.across[i], q) && !self.flip(t, i, tally) {
-                waiting.push(t);
-            }
-            if self.cells.len() > MAX_TETRAHEDRA {
-                return None;
+            if self.is_hit(cell.across[i].tetrahedron(), q) && !self.flip(t, i, tally)? {
+                waiting.push(number);
             }
         }
         // What waited has gone with a neighbor, which was tested when it came.
-        let is_done = !waiting.iter().any(|&t| self.cells[t as usize].is_present());
+        let is_done = waiting.iter().all(|&number| self.slot(number).is_none());
         debug_assert!(is_done, "a conflict is left, and no flip ends it");
         is_done.then_some(())
     }
 
-    /// Flips the facet of a tetrahedron across from the new site, its corner `i`, an edge of that facet, or a corner, if
-    /// one can be.
-    fn flip<T: Tally>(&mut self, t: u32, i: usize, tally: &mut T) -> bool {
-        let (cell, g) = (self.cells[t as usize], self.cells[t as usize].across[i]);
-        let (p, beyond) = (cell.corners[i], self.cells[g as usize]);
-        let Some(apex) = beyond.across.iter().position(|&u| u == t) else { return false };
+    /// Flips the facet of a tetrahedron across from the new site, its corner `i`, an edge of that facet, or a corner. False if none
+    /// of them can be, `None` if there are too many tetrahedra.
+    fn flip<T: Tally>(&mut self, t: TetrahedronId, i: usize, tally: &mut T) -> Option<bool> {
+        let cell = self.mesh.cells[t.index()];
+        let (p, g, apex) = (cell.corners[i], cell.across[i].tetrahedron(), cell.across[i].corner());
+        let beyond = self.mesh.cells[g.index()];
         let d = beyond.corners[apex];
         // The facets of what is beyond that are at the new site already.
         let mut old = vec![t, g];
         let mut kept = Vec::new();
         for k in [1, 2, 3].map(|k| (i + k) % 4) {
-            let u = beyond.across[beyond.position(cell.corners[k]).unwrap_or(apex)];
-            if self.cells[u as usize].position(p).is_some() {
+            let from = beyond.corners.iter().position(|&v| v == cell.corners[k]);
+            let u = beyond.across[from.unwrap_or(apex)].tetrahedron();
+            if self.mesh.cells[u.index()].corners.contains(&p) {
                 old.push(u);
             } else {
                 kept.push(k);
             }
         }
-        let new: Vec<[u32; 4]> = kept.iter().map(|&k| cell.with(k, d)).collect();
-        let q = self.points[p as usize];
-        if new.is_empty() || !new.iter().all(|&corners| self.is_positive(corners, i, q)) {
-            return false;
+        let new = kept.iter().map(|&k| with(cell.corners, k, d));
+        let q = self.points[p.index()];
+        if kept.is_empty() || !new.clone().all(|corners| self.is_positive(corners, i, q)) {
+            return Some(false);
         }
         if let [k] = kept[..] {
-            self.hidden.push(Place::new(cell.corners[k] as usize));
+            self.hidden.push(cell.corners[k]);
         }
-        self.replace(&old, &new);
-        tally.destroyed(old.len());
-        tally.created(new.len());
-        true
+        self.replace(&old, new, tally)?;
+        Some(true)
     }
+}
 
-    /// Puts the present tetrahedra in the place of those of a mesh.
-    fn close(&self, mesh: &mut Mesh3) -> Option<()> {
-        let mut numbers = vec![None; self.cells.len()];
-        let present = |t: &usize| self.cells[*t].is_present();
-        let place = |v: u32| if v == GHOST { Place::GHOST } else { Place::new(v as usize) };
-        mesh.cells.clear();
-        mesh.marks.clear();
-        for t in (0..self.cells.len()).filter(present) {
-            numbers[t] = Some(mesh.new_cell()?);
-        }
-        // Ghosts have the vertex at infinity last, in positive order as before.
-        let turned = |cell: &Cell| {
-            let mut order = [0, 1, 2, 3];
-            if let Some(k) = cell.position(GHOST).filter(|&k| k < 3) {
-                order.swap(k, 3);
-                order.swap((k + 1) % 3, (k + 2) % 3);
-            }
-            order
-        };
-        for t in (0..self.cells.len()).filter(present) {
-            let (cell, number): (_, TetrahedronId) = (&self.cells[t], numbers[t]?);
-            let order = turned(cell);
-            let mut made =
-                Tetrahedron { corners: order.map(|k| place(cell.corners[k])), ..Tetrahedron::FREE };
-            for (k, &from) in order.iter().enumerate() {
-                let other = &self.cells[cell.across[from] as usize];
-                let j = other.across.iter().position(|&u| u as usize == t)?;
-                let j = turned(other).iter().position(|&k| k == j)?;
-                made.across[k] = numbers[cell.across[from] as usize]?.facet(j);
-            }
-            for v in made.corners.into_iter().filter(|v| !v.is_ghost()) {
-                mesh.incident[v.index()] = number;
-            }
-            mesh.cells[number.index()] = made;
-        }
-        self.hidden.iter().for_each(|p| mesh.incident[p.index()] = TetrahedronId::NONE);
-        Some(())
-    }
+/// Corners, one of them replaced.
+fn with(mut corners: [Place; 4], k: usize, p: Place) -> [Place; 4] {
+    corners[k] = p;
+    corners
 }

@@ -45,11 +45,10 @@ impl InOrder3 {
             }
         }
         points.truncate(indices.len());
-        if indices.len() < moved.len() {
-            let to = |p: Place| if p.is_ghost() { p } else { moved[p.index()] };
-            mesh.cells.iter_mut().for_each(|cell| cell.corners = cell.corners.map(to));
-        }
         (mesh.names, mesh.incident, mesh.marks) = (Names::default(), Vec::new(), Vec::new());
+        if indices.len() < moved.len() {
+            mesh.records().renumber(|p| moved[p.index()], |t| t);
+        }
         Self { mesh, points, indices, duplicates }
     }
 }

@@ -87,7 +87,7 @@ impl<W: Lift> Arena for Part<'_, W> {
 
     #[inline]
     fn free_cell(&mut self, t: TetrahedronId) {
-        self.cells[t.index()] = Tetrahedron::FREE;
+        self.memory().records().clear(t);
         self.free.push(t);
     }
 }
@@ -218,11 +218,7 @@ impl<'a, W: Lift> Part<'a, W> {
         }
         border.iter().for_each(|t| self.marks[t.index()] = 0);
         if slot > 0 {
-            for cell in self.cells[..self.used].iter_mut().filter(|cell| !cell.corners[0].is_ghost()) {
-                *cell = Tetrahedron { corners: cell.corners.map(places), across: cell.across.map(facets) };
-            }
-            let used = self.incident.iter_mut().filter(|t| **t != TetrahedronId::NONE);
-            used.for_each(|t| *t = slots(*t));
+            self.memory().records().renumber(places, slots);
         }
         Done {
             unused: slot + self.used..slot + self.cells.len(),

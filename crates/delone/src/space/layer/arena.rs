@@ -7,6 +7,7 @@ use super::kernel::{Lift, SiteRef};
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::walk::{self, End};
 use crate::mesh::tetrahedra::Tetrahedron;
+use crate::mesh::tetrahedra::surgery::Records;
 use crate::prefetch::prefetch;
 use crate::tally::{Phase, Tally};
 
@@ -51,6 +52,12 @@ impl<W> Memory<'_, W> {
     #[inline]
     pub(in crate::space) fn view(&self) -> View<'_, W> {
         View { cells: self.cells, points: self.points, weights: self.weights, filter: self.filter }
+    }
+
+    /// What surgery writes.
+    #[inline]
+    pub(in crate::space) fn records(&mut self) -> Records<'_> {
+        Records { cells: self.cells, marks: self.marks, incident: self.incident }
     }
 }
 

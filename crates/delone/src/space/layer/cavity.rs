@@ -2,20 +2,15 @@
 //!
 //! Source: Bowyer, and Watson, The Computer Journal 1981. With the canonical in-sphere test the cavity is that of
 //! points in general position: a ball without an inner vertex, star-shaped around the new point. With weights the vertices
-//! inside are those that it hides.
-//!
-//! The new tetrahedra stand on the facets of the ball's border and are glued along its edges. Each border vertex gets a
-//! small number, and a table by pairs of numbers holds the facet above each directed edge; so nothing is searched. The
-//! numbers are found without marks: the slot where a vertex keeps its tetrahedron holds the number for the while. The
-//! edges of large borders (of the center of a sphere's surface) are sorted instead.
+//! inside are those that it hides. The new tetrahedra stand on the facets of the ball's border ([`StarFill`]).
 //!
 //! Cost: O(k) for k tetrahedra, about twenty on average over random insertions; nothing is allocated once the buffers
-//! have grown. Sorting: O(k log k).
+//! have grown.
 
 use super::arena::{Arena, Memory};
 use super::kernel::Lift;
 use crate::ids::{FacetId, Place, TetrahedronId};
-use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::mesh::tetrahedra::surgery::StarFill;
 use crate::prefetch::prefetch;
 use crate::tally::Tally;
 
@@ -23,12 +18,6 @@ use crate::tally::Tally;
 const INSIDE: u8 = 1;
 const OUTSIDE: u8 = 2;
 const WAITING: u8 = 3;
-
-/// Facets of a border, above which they are glued by sorting: the table grows with the square of their number.
-const TABLED_FACETS: usize = 2000;
-
-/// The least side of the table, in vertices: hardly any border has more.
-const LEAST_TABLE: usize = 64;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
@@ -40,12 +29,7 @@ pub(in crate::space) struct Cavity {
     queued: usize,
     /// The facets around them, seen from outside.
     border: Vec<FacetId>,
-    /// The border's vertices by their number, each with a new tetrahedron; the ghost has the first.
-    vertices: Vec<(Place, TetrahedronId)>,
-    /// For each facet of the border where its edges are in the table, as seen from the other side.
-    edges: Vec<[u32; 3]>,
-    /// By the numbers of its ends, the facet above each directed edge of the border.
-    table: Vec<FacetId>,
+    star: StarFill,
     /// The vertices inside, which the new one hides, where it may hide some; before that all corners that may be.
     hidden: Vec<Place>,
     /// Tetrahedra of the cavity that its star did not take.
@@ -85,7 +69,7 @@ impl Cavity {
             arena.memory().marks[t.index()] = 0;
             arena.free_cell(t);
         }
-        self.refill(&mut arena.memory(), v);
+        self.star.fill(&mut arena.memory().records(), v, &self.border, &self.cells);
         if A::Weight::HIDES {
             self.find_hidden(&mut arena.memory());
         }
@@ -124,7 +108,7 @@ impl Cavity {
 
     /// The vertices that the last one inserted is joined to, the ghost not among them.
     pub(in crate::space) fn joined(&self) -> impl Iterator<Item = Place> {
-        self.vertices[1..].iter().map(|vertex| vertex.0)
+        self.star.joined()
     }
 
     /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what waits to be tested is decided
@@ -209,105 +193,4 @@ impl Cavity {
     fn lengthen(&mut self) {
         self.queue.resize(2 * self.queued + 64, TetrahedronId::NONE);
     }
-
-    /// Joins `v` to every facet of the border.
-    fn refill<W>(&mut self, memory: &mut Memory<'_, W>, v: Place) {
-        for (&g, &t) in self.border.iter().zip(&self.cells) {
-            let outside = &mut memory.cells[g.tetrahedron().index()];
-            outside.across[g.corner()] = t.facet(0);
-            let [a, b, c] = ghost_last(FACETS[g.corner()].map(|k| outside.corners[k]));
-            memory.marks[g.tetrahedron().index()] = 0;
-            memory.marks[t.index()] = 0;
-            memory.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
-        }
-        if self.border.len() > TABLED_FACETS {
-            self.glue_by_sorting(memory);
-        } else {
-            self.glue_by_table(memory);
-        }
-        self.vertices[1..].iter().for_each(|&(p, t)| memory.incident[p.index()] = t);
-        memory.incident[v.index()] = self.cells[0];
-    }
-
-    /// Glues the new tetrahedra to each other, and lists the vertices of the border.
-    fn glue_by_table<W>(&mut self, memory: &mut Memory<'_, W>) {
-        // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
-        let side = (self.border.len() / 2 + 3).next_power_of_two();
-        let width = side.trailing_zeros();
-        if self.table.len() < side * side {
-            let most = side.max(LEAST_TABLE);
-            self.table.resize(most * most, FacetId::NONE);
-            self.vertices.reserve(most);
-        }
-        let table = &mut self.table[..side * side];
-        self.edges.clear();
-        self.vertices.clear();
-        self.vertices.push((Place::GHOST, TetrahedronId::NONE));
-        for &t in &self.cells {
-            let [_, a, b, c] = memory.cells[t.index()].corners;
-            let i = number(&mut self.vertices, memory.incident, a, t);
-            let j = number(&mut self.vertices, memory.incident, b, t);
-            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, memory.incident, c, t) };
-            table[j << width | k] = t.facet(1);
-            table[k << width | i] = t.facet(2);
-            table[i << width | j] = t.facet(3);
-            self.edges.push([k << width | j, i << width | k, j << width | i].map(|at| at as u32));
-        }
-        for (&t, edges) in self.cells.iter().zip(&self.edges) {
-            let across = &mut memory.cells[t.index()].across;
-            across[1] = table[edges[0] as usize];
-            across[2] = table[edges[1] as usize];
-            across[3] = table[edges[2] as usize];
-        }
-    }
-
-    /// Glues a border of any size.
-    #[cold]
-    fn glue_by_sorting<W>(&mut self, memory: &mut Memory<'_, W>) {
-        let mut edges = Vec::with_capacity(3 * self.cells.len());
-        self.vertices.clear();
-        for &t in &self.cells {
-            let [_, a, b, c] = memory.cells[t.index()].corners;
-            edges.extend([(1, b, c), (2, c, a), (3, a, b)].map(|(k, p, q)| (p.min(q), p.max(q), t.facet(k))));
-            self.vertices.extend([(a, t), (b, t), (c, t)]);
-        }
-        edges.sort_unstable();
-        for pair in edges.chunks_exact(2) {
-            let [f, g] = [pair[0].2, pair[1].2];
-            memory.cells[f.tetrahedron().index()].across[f.corner()] = g;
-            memory.cells[g.tetrahedron().index()].across[g.corner()] = f;
-        }
-        self.vertices.retain(|vertex| !vertex.0.is_ghost());
-        self.vertices.sort_unstable();
-        self.vertices.dedup_by_key(|vertex| vertex.0);
-        self.vertices.insert(0, (Place::GHOST, TetrahedronId::NONE));
-    }
-}
-
-/// The corners of a facet, turned so that the ghost is the last.
-#[inline]
-fn ghost_last([a, b, c]: [Place; 3]) -> [Place; 3] {
-    if a.is_ghost() {
-        [b, c, a]
-    } else if b.is_ghost() {
-        [c, a, b]
-    } else {
-        [a, b, c]
-    }
-}
-
-/// The number of a vertex of the border, of which `t` is a new tetrahedron.
-#[inline]
-fn number(
-    vertices: &mut Vec<(Place, TetrahedronId)>,
-    incident: &mut [TetrahedronId],
-    p: Place,
-    t: TetrahedronId,
-) -> usize {
-    let slot = &mut incident[p.index()];
-    if vertices.get(slot.index()).is_none_or(|vertex| vertex.0 != p) {
-        *slot = TetrahedronId::new(vertices.len());
-        vertices.push((p, t));
-    }
-    slot.index()
 }

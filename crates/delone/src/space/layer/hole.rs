@@ -13,6 +13,7 @@ use super::Layer;
 use super::kernel::Lift;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::Tetrahedron;
+use crate::mesh::tetrahedra::surgery::turned;
 use crate::order;
 use crate::space::construct;
 
@@ -43,17 +44,6 @@ pub(in crate::space) struct Border {
     pub(in crate::space) outside: FacetId,
     /// Where the filling meets it.
     pub(in crate::space) inside: FacetId,
-}
-
-/// Three from the smallest on, in the same sense.
-pub(in crate::space) fn turned<T: Copy + Ord>([a, b, c]: [T; 3]) -> [T; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }
 
 impl Hole {
@@ -195,13 +185,7 @@ impl Hole {
                 let i = self.inside.binary_search_by_key(&g.tetrahedron(), |pair| pair.0);
                 i.map_or(FacetId::NONE, |i| self.inside[i].1.facet(g.corner()))
             });
-            mesh.cells[to.index()] = Tetrahedron { corners: source.corners.map(place), across };
-            for (k, g) in across.into_iter().enumerate() {
-                mesh.cells[g.tetrahedron().index()].across[g.corner()] = to.facet(k);
-            }
-            for p in source.corners.into_iter().filter(|p| !p.is_ghost()) {
-                mesh.incident[place(p).index()] = to;
-            }
+            mesh.records().put(to, Tetrahedron { corners: source.corners.map(place), across });
         }
         Some(())
     }

@@ -12,7 +12,7 @@ use super::arena::Arena;
 use super::kernel::Lift;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
-use crate::mesh::tetrahedra::{FACETS, Tetrahedron, link};
+use crate::mesh::tetrahedra::FACETS;
 use crate::order;
 use crate::space::construct;
 
@@ -145,29 +145,17 @@ pub(in crate::space) fn first_cells(arena: &mut impl Arena, mut corners: [Place;
     if orient3d(a, b, c, d).is_negative() {
         corners.swap(0, 1);
     }
-    let first = arena.new_cell()?;
-    let mut ghosts = [TetrahedronId::NONE; 4];
-    for ghost in &mut ghosts {
-        *ghost = arena.new_cell()?;
-    }
-    let memory = arena.memory();
-    memory.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
-    for (k, t) in ghosts.into_iter().enumerate() {
-        // Seen from the other side.
-        let [a, b, c] = FACETS[k].map(|i| corners[i]);
-        memory.cells[t.index()].corners = [a, c, b, Place::GHOST];
-        link(memory.cells, first.facet(k), t.facet(3));
-        memory.incident[corners[k].index()] = first;
-    }
-    for (i, &t) in ghosts.iter().enumerate() {
-        for (j, &u) in ghosts.iter().enumerate().filter(|&(j, _)| j != i) {
-            // They share all but the corners i and j of the first.
-            let corner = |t: TetrahedronId, p: Place| {
-                memory.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
-            };
-            let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
-            link(memory.cells, f, g);
+    let mut five = [(TetrahedronId::NONE, corners); 5];
+    for (k, (t, beyond)) in five.iter_mut().enumerate() {
+        *t = arena.new_cell()?;
+        if let Some(facet) = k.checked_sub(1).map(|k| FACETS[k]) {
+            // Seen from the other side.
+            let [a, b, c] = facet.map(|i| corners[i]);
+            *beyond = [a, c, b, Place::GHOST];
         }
     }
+    // The finite one is written last: its corners have it for their own.
+    five.rotate_left(1);
+    arena.memory().records().flip(&[], &five);
     Some(())
 }

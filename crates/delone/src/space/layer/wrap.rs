@@ -16,9 +16,9 @@
 use delone_predicates::{Site, SpherePencil};
 
 use super::Layer;
-use super::hole::turned;
 use super::kernel::Lift;
 use crate::ids::{FacetId, Place, TetrahedronId};
+use crate::mesh::tetrahedra::surgery::turned;
 use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
 use crate::prefetch::prefetch;
 
@@ -85,7 +85,8 @@ impl Wrap {
             };
             self.put(facet, outer, apex, t);
         }
-        self.commit(&mut layer.mesh);
+        // Of two that meet, the later one knows the other.
+        self.cells.iter().for_each(|&(t, cell)| layer.mesh.records().put(t, cell));
         star.iter().skip(self.cells.len()).for_each(|&t| layer.mesh.free_cell(t));
         Some(())
     }
@@ -176,17 +177,6 @@ impl Wrap {
             }
         }
         self.cells.push((t, Tetrahedron { corners: corners.map(|n| self.vertices[n].0), across }));
-    }
-
-    /// Puts the filling into the mesh. Of two that meet, the later one knows the other.
-    fn commit(&self, mesh: &mut Mesh3) {
-        self.cells.iter().for_each(|&(t, cell)| mesh.cells[t.index()] = cell);
-        for &(t, Tetrahedron { corners, across }) in &self.cells {
-            for (k, f) in across.into_iter().enumerate().filter(|(_, f)| *f != FacetId::NONE) {
-                mesh.cells[f.tetrahedron().index()].across[f.corner()] = t.facet(k);
-            }
-            corners.into_iter().for_each(|p| mesh.incident[p.index()] = t);
-        }
     }
 }
 
