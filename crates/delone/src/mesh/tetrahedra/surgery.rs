@@ -51,8 +51,9 @@ impl Records<'_> {
     }
 
     /// Flips: some tetrahedra give way to others with the same border, matched by their corners. Two become three around an edge
-    /// of their own, one becomes four around a vertex, and back. None become five: a tetrahedron and its ghosts. Slots may be
-    /// those of the old ones; the ghost is the last corner. A vertex that is in the old ones alone is none any more.
+    /// of their own, one becomes four around a vertex, and back. None become five: a tetrahedron and its ghosts. An edge or a facet
+    /// that is new must not be in the mesh before. Slots may be those of the old ones; the ghost is the last corner. A vertex that
+    /// is in the old ones alone is none any more.
     ///
     /// Cost: O(k^2) for k tetrahedra.
     pub(crate) fn flip(&mut self, old: &[TetrahedronId], new: &[(TetrahedronId, [Place; 4])]) {
