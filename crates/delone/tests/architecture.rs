@@ -290,3 +290,34 @@ fn every_file_of_tests_is_in_a_program() {
     }
     assert!(programs >= 4);
 }
+
+/// A fork changes one address, and a test finds the copies of it.
+#[test]
+fn packages_name_one_repository() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let text = |name: &str| fs::read_to_string(root.join(name)).expect(name);
+    let manifest = text("Cargo.toml");
+    let line = manifest.lines().find_map(|line| line.strip_prefix("repository = \"")).expect("an address");
+    let address = line.trim_end_matches('"');
+    for name in ["bindings/python/pyproject.toml", "bindings/wasm/package.json", "CITATION.cff"] {
+        assert!(text(name).contains(address), "{name} does not name {address}");
+    }
+    let mut published = 0;
+    for entry in fs::read_dir(root.join("crates")).expect("readable") {
+        let folder = entry.expect("readable").path();
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+        if manifest.contains("publish = false") {
+            continue;
+        }
+        published += 1;
+        let name = folder.display();
+        assert!(manifest.contains("repository.workspace = true"), "{name} names no repository");
+        assert!(manifest.contains("description = "), "{name} has no description");
+        let has_readme = manifest.contains("readme = ") || folder.join("README.md").exists();
+        assert!(has_readme, "{name} has no README");
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            assert!(folder.join(licence).exists(), "{name} has no {licence}");
+        }
+    }
+    assert!(published >= 8, "only {published} crates are published");
+}

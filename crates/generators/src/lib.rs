@@ -6,6 +6,10 @@
 //! This crate depends on no other crate of the project, but in its tests: `delone generate`, tests, benchmarks and the random attack
 //! all draw from it.
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 macro_rules! kinds {
     ($(#[doc = $title:literal])+ $kind:ident, $method:ident -> $parts:ty: $($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $make:expr;)+) => {
         $(#[doc = $title])+

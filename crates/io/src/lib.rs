@@ -4,6 +4,10 @@
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod answers;
 mod chunks;
 mod cloud;

@@ -22,6 +22,10 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod ball;
 mod cell;
 mod center;

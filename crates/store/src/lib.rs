@@ -40,6 +40,10 @@
 //!
 //! Nothing is printed, and no option is read: [`Watch`] hears of progress, and may end the work.
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod buckets;
 mod budget;
 mod build;

@@ -38,6 +38,10 @@
 //! | files | [`Terrain::write`], [`Sheets`] |
 //! | remarks on what might surprise | [`Terrain::remarks`] |
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod cells;
 mod clip;
 mod error;

@@ -16,7 +16,7 @@ const TABLED_FACETS: usize = 2000;
 /// The least side of the table, in vertices: hardly any border has more.
 const LEAST_TABLE: usize = 64;
 
-/// What surgery writes: all of a mesh, or a part of its memory that is one task's own.
+/// The records that surgery writes: all of a mesh, or the memory of one task.
 pub(crate) struct Records<'a> {
     pub(crate) cells: &'a mut [Tetrahedron],
     /// For each tetrahedron a mark, zero between operations.
@@ -351,7 +351,7 @@ mod tests {
         corners
     }
 
-    /// What a flip takes away, and what takes its place.
+    /// The tetrahedra of a flip: those that go, and those that come.
     type Flip = (Vec<TetrahedronId>, Vec<[Place; 4]>);
 
     /// A flip at a tetrahedron whose result is a mesh: that has an edge, or a facet, at most once.
