@@ -54,3 +54,4 @@ TEXT
 mv "$page" docs/performance.md
 chmod 644 docs/performance.md
 trap - EXIT
+bash docs/chart.sh
