@@ -13,6 +13,9 @@ use crate::ids::{FacetId, Place, TetrahedronId};
 /// Facets of a border, above which they are glued by sorting: the table grows with the square of their number.
 const TABLED_FACETS: usize = 2000;
 
+/// The most facets that wait for their other side in a flip: of its five tetrahedra at most six have another side outside.
+const OPEN_FACETS: usize = 16;
+
 /// The least side of the table, in vertices: hardly any border has more.
 const LEAST_TABLE: usize = 64;
 
@@ -55,29 +58,34 @@ impl Records<'_> {
     /// that is new must not be in the mesh before. Slots may be those of the old ones; the ghost is the last corner. A vertex that
     /// is in the old ones alone is none any more.
     ///
-    /// Cost: O(k^2) for k tetrahedra.
+    /// Cost: O(1), nothing is allocated.
     pub(crate) fn flip(&mut self, old: &[TetrahedronId], new: &[(TetrahedronId, [Place; 4])]) {
         // The facets that wait for their other side, as that sees them.
-        let mut open: Vec<([Place; 3], FacetId)> = Vec::with_capacity(3 * new.len() + 1);
+        let (mut open, mut count) = ([([Place::GHOST; 3], FacetId::NONE); OPEN_FACETS], 0);
         for t in old {
             let Tetrahedron { corners, across } = self.cells[t.index()];
-            let border = across.into_iter().enumerate().filter(|(_, f)| !old.contains(&f.tetrahedron()));
-            open.extend(border.map(|(k, f)| (turned(FACETS[k].map(|i| corners[i])), f)));
+            for (k, f) in across.into_iter().enumerate().filter(|(_, f)| !old.contains(&f.tetrahedron())) {
+                open[count] = (turned(FACETS[k].map(|i| corners[i])), f);
+                count += 1;
+            }
             let vertices = corners.into_iter().filter(|p| !p.is_ghost());
             vertices.for_each(|p| self.incident[p.index()] = TetrahedronId::NONE);
         }
         for &(t, corners) in new {
             let across = [0, 1, 2, 3].map(|k| {
                 let side @ [a, b, c] = turned(FACETS[k].map(|i| corners[i]));
-                if let Some(found) = open.iter().position(|facet| facet.0 == side) {
-                    return open.swap_remove(found).1;
+                if let Some(found) = open[..count].iter().position(|facet| facet.0 == side) {
+                    count -= 1;
+                    open.swap(found, count);
+                    return open[count].1;
                 }
-                open.push(([a, c, b], t.facet(k)));
+                open[count] = ([a, c, b], t.facet(k));
+                count += 1;
                 FacetId::NONE
             });
             self.put(t, Tetrahedron { corners, across });
         }
-        debug_assert!(open.is_empty(), "new tetrahedra fill the place of the old ones");
+        debug_assert_eq!(count, 0, "new tetrahedra fill the place of the old ones");
     }
 
     /// Gives places and tetrahedra other numbers, where they are written. No record moves.
