@@ -22,11 +22,12 @@ small | usual | long) ;;
     ;;
 esac
 mkdir -p "$folder"
-# A program that is there already may be named.
-delone=${DELONE:-}
-if [ -z "$delone" ]; then
-    cargo build --release -q --features experiments
-    delone=${CARGO_TARGET_DIR:-target}/release/delone
+# Programs that are there already may be named.
+delone=${DELONE:-} lab=${LAB:-}
+if [ -z "$delone" ] || [ -z "$lab" ]; then
+    cargo build --release -q -p delone-cli -p delone-lab
+    built=${CARGO_TARGET_DIR:-target}/release
+    delone=${delone:-$built/delone} lab=${lab:-$built/delone-lab}
 fi
 
 # Name, and the largest set of each size.
@@ -35,7 +36,7 @@ experiment() {
     shift 4
     local largest=${!size}
     echo "== $name up to $largest"
-    $delone -q experiment "$name" "$@" --largest "$largest" -o "$folder" > /dev/null
+    $lab -q experiment "$name" "$@" --largest "$largest" -o "$folder" > /dev/null
 }
 
 experiment scopes 100 1000 1000

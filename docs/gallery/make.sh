@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Makes the pictures of the gallery anew. Needs the program: cargo build --release
+# Makes the pictures of the gallery anew. Needs the programs: cargo build --release -p delone-cli -p delone-lab
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 delone=${DELONE:-target/release/delone}
+lab=${LAB:-target/release/delone-lab}
 here=docs/gallery
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -54,17 +55,17 @@ $delone draw "$work/ball.csv" --dim 3 --view -60,40 --cut 0,0,1,0.1 -o $here/bal
 # Imprecise points, and moving ones.
 $delone generate disks -n 60 --seed 3 -o "$work/disks.csv"
 $delone draw "$work/disks.csv" --disks 1 --hints -o $here/hints.png --size 700
-$delone animate "$work/disks.csv" --radius 0.3 --steps 40 --size 400 -o $here/motion.png
+$lab animate "$work/disks.csv" --radius 0.3 --steps 40 --size 400 -o $here/motion.png
 # What the algorithms of the papers do.
 $delone generate uniform -n 14 --seed 3 -o "$work/few.csv"
 $delone generate uniform -n 48 --seed 3 -o "$work/some.csv"
 $delone generate uniform -n 300 --seed 3 -o "$work/several.csv"
 $delone generate disks -n 30 --seed 3 -o "$work/thirty.csv"
-$delone animate "$work/few.csv" --show flips --size 400 -o $here/flips.png
-$delone animate "$work/some.csv" --show lists --steps 23 --size 400 -o $here/lists.png
-$delone animate "$work/several.csv" --show levels --steps 30 --size 400 -o $here/levels.png
-$delone animate "$work/several.csv" --show jump --steps 30 --size 400 -o $here/jump.png
-$delone animate "$work/thirty.csv" --show hints --size 400 -o $here/walks.png
+$lab animate "$work/few.csv" --show flips --size 400 -o $here/flips.png
+$lab animate "$work/some.csv" --show lists --steps 23 --size 400 -o $here/lists.png
+$lab animate "$work/several.csv" --show levels --steps 30 --size 400 -o $here/levels.png
+$lab animate "$work/several.csv" --show jump --steps 30 --size 400 -o $here/jump.png
+$lab animate "$work/thirty.csv" --show hints --size 400 -o $here/walks.png
 # The five sets of the paper of the Delaunay hierarchy (Devillers 1998, Figure 5).
 for kind in uniform ellipse2 ellipse parabola circle; do
     $delone generate $kind -n 400 --seed 1 -o "$work/$kind.csv"

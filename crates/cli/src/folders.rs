@@ -21,9 +21,7 @@ fn input(command: &mut Command) -> Option<&mut InputArgs> {
         Command::Mesh(args) => &mut args.input,
         Command::Check(args) => &mut args.input,
         Command::Draw(args) => &mut args.input,
-        Command::Animate(args) => &mut args.input,
         Command::Info(args) => &mut args.input,
-        Command::Reduce(args) => &mut args.input,
         Command::Locate(args) => &mut args.input,
         Command::Nearest(args) => &mut args.input,
         Command::Alpha(args) => &mut args.input,
@@ -37,11 +35,15 @@ fn input(command: &mut Command) -> Option<&mut InputArgs> {
     })
 }
 
-/// Puts the LAS and LAZ files and the EPT of folders, nested ones too, in their place, by name; and the files that patterns stand for. A folder that
-/// `delone tiles` made stays one for commands that know them.
-pub(crate) fn expand(command: &mut Command) -> Result<(), Failure> {
+/// Expands the input of a command. A folder that `delone tiles` made stays one for commands that know them.
+pub(crate) fn expand_all(command: &mut Command) -> Result<(), Failure> {
     let may_be_tiles = matches!(command, Command::Info(_) | Command::Check(_));
-    let Some(input) = input(command) else { return Ok(()) };
+    input(command).map_or(Ok(()), |input| expand(input, may_be_tiles))
+}
+
+/// Puts the LAS and LAZ files and the EPT of folders, nested ones too, in their place, by name; and the files that patterns stand for. Folders of
+/// tiles stay if the command may have one.
+pub fn expand(input: &mut InputArgs, may_be_tiles: bool) -> Result<(), Failure> {
     let from = input.from;
     let takes_folders = from.is_none_or(files::is_las);
     for path in std::mem::take(&mut input.input) {

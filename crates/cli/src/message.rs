@@ -13,9 +13,12 @@ use delone_io::Format;
 
 use crate::closed;
 
+/// Commands that `delone-lab` has.
+const OF_THE_LAB: [&str; 4] = ["animate", "experiment", "reduce", "replay"];
+
 /// Why a command did not do its work.
 #[derive(Debug)]
-pub(crate) struct Failure {
+pub struct Failure {
     message: String,
     help: String,
     /// 1 for bad data or failed work, 2 for wrong usage.
@@ -24,17 +27,17 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// Bad data, or work that failed.
-    pub(crate) fn new(message: impl Display, help: impl Display) -> Self {
+    pub fn new(message: impl Display, help: impl Display) -> Self {
         Self { message: message.to_string(), help: help.to_string(), status: 1 }
     }
 
     /// Wrong usage.
-    pub(crate) fn usage(message: impl Display, help: impl Display) -> Self {
+    pub fn usage(message: impl Display, help: impl Display) -> Self {
         Self { status: 2, ..Self::new(message, help) }
     }
 
     /// Something that a feature of the crate has, which is off in this program.
-    #[cfg(not(all(feature = "experiments", feature = "parquet")))]
+    #[cfg(not(feature = "parquet"))]
     pub(crate) fn left_out(what: &str, feature: &str) -> Self {
         Self::usage(
             format!("{what} is not in this program, which was built without {feature}"),
@@ -43,7 +46,7 @@ impl Failure {
     }
 
     /// Something wrong with a file.
-    pub(crate) fn file(path: &Path, error: &delone_io::Error) -> Self {
+    pub fn file(path: &Path, error: &delone_io::Error) -> Self {
         use delone_io::Error;
         let message = match error {
             Error::UnknownExtension(_) => error.to_string(),
@@ -60,7 +63,7 @@ impl Failure {
     }
 
     /// Something wrong with points.
-    pub(crate) fn points(path: &Path, error: &delone::Error) -> Self {
+    pub fn points(path: &Path, error: &delone::Error) -> Self {
         let help = match error {
             delone::Error::NotFinite { .. } => {
                 "remove that point or repair its coordinates: every finite number is accepted"
@@ -76,7 +79,7 @@ impl Failure {
     }
 
     /// Something wrong with points and segments.
-    pub(crate) fn graph(path: &Path, error: &delone::Error) -> Self {
+    pub fn graph(path: &Path, error: &delone::Error) -> Self {
         let help = match error {
             delone::Error::SegmentsCross { .. } => {
                 "repair the data, or split segments with --crossings split, which triangulate and mesh have"
@@ -90,7 +93,7 @@ impl Failure {
     }
 
     /// Prints the failure and gives the exit status.
-    pub(crate) fn report(&self) -> ExitCode {
+    pub fn report(&self) -> ExitCode {
         tell(format_args!("error: {}\nhelp: {}", one_line(&self.message), one_line(&self.help)));
         ExitCode::from(self.status)
     }
@@ -105,7 +108,7 @@ impl std::fmt::Display for Failure {
 impl std::error::Error for Failure {}
 
 /// A line on standard error, if somebody reads it.
-pub(crate) fn tell(text: impl Display) {
+pub fn tell(text: impl Display) {
     _ = writeln!(std::io::stderr(), "{text}");
 }
 
@@ -121,8 +124,8 @@ fn one_line(text: &str) -> String {
     }
 }
 
-/// Prints help and version where they were asked for, and a usage error in one line otherwise.
-pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+/// Prints help and version where they were asked for, and a usage error of a program in one line otherwise.
+pub fn usage(error: &clap::Error, program: &str) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         return match closed::check().and_then(|()| error.print()) {
             Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => unanswered(&error).report(),
@@ -143,9 +146,12 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
                 Some(ContextValue::Strings(names)) => names.first().cloned(),
                 _ => None,
             });
-    let help = match suggestion {
-        Some(name) => format!("did you mean {name}? see delone --help"),
-        None => "see delone --help, or delone COMMAND --help".to_owned(),
+    let help = match (error.get(ContextKind::InvalidSubcommand), suggestion) {
+        (Some(ContextValue::String(name)), _) if OF_THE_LAB.contains(&name.as_str()) => {
+            format!("{name} is a command of delone-lab: cargo install --locked --path crates/lab")
+        }
+        (_, Some(name)) => format!("did you mean {name}? see {program} --help"),
+        (_, None) => format!("see {program} --help, or {program} COMMAND --help"),
     };
     Failure::usage(message, help).report()
 }
@@ -158,7 +164,7 @@ pub(crate) fn say(quiet: bool, text: impl Display) {
 }
 
 /// A remark on standard error.
-pub(crate) fn note(quiet: bool, text: impl Display) {
+pub fn note(quiet: bool, text: impl Display) {
     if !quiet {
         tell(format_args!("note: {text}"));
     }
@@ -216,7 +222,7 @@ fn unanswered(error: &std::io::Error) -> Failure {
 }
 
 /// Prints a command's answer on standard output. A reader that has seen enough (`| head`) is no failure.
-pub(crate) fn answer(text: &str) -> Result<(), Failure> {
+pub fn answer(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match closed::check().and_then(|()| out.write_all(text.as_bytes())).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(unanswered(&error)),

@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 const TICK: Duration = Duration::from_millis(100);
 
 /// One phase of the work. The bar appears after a second and goes away with the phase.
-pub(crate) struct Phase {
+pub struct Phase {
     bar: ProgressBar,
     /// Dropped, it ends the thread that waits to show the bar.
     done: Option<(Sender<()>, JoinHandle<()>)>,
@@ -22,7 +22,7 @@ pub(crate) struct Phase {
 
 impl Phase {
     /// A phase of unknown length.
-    pub(crate) fn start(quiet: bool, what: &'static str) -> Self {
+    pub fn start(quiet: bool, what: &'static str) -> Self {
         Self::with_bar(quiet, ProgressBar::hidden(), what, "{spinner} {msg} {elapsed}")
     }
 
@@ -33,7 +33,7 @@ impl Phase {
     }
 
     /// A phase of so many equal parts.
-    pub(crate) fn count(quiet: bool, what: &'static str, parts: u64) -> Self {
+    pub fn count(quiet: bool, what: &'static str, parts: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(parts), ProgressDrawTarget::hidden());
         Self::with_bar(quiet, bar, what, "{spinner} {msg} {wide_bar} {pos}/{len} {eta}")
     }
@@ -50,7 +50,7 @@ impl Phase {
     }
 
     /// One part of it is done.
-    pub(crate) fn advance(&self) {
+    pub fn advance(&self) {
         self.bar.inc(1);
     }
 

@@ -11,19 +11,19 @@ use crate::files;
 use crate::message::{Failure, grouped, say};
 
 /// Collects numbers while a command works.
-pub(crate) struct Stats {
+pub struct Stats {
     started: Instant,
     seconds: Map<String, Value>,
     facts: Map<String, Value>,
 }
 
 impl Stats {
-    pub(crate) fn start() -> Self {
+    pub fn start() -> Self {
         Self { started: Instant::now(), seconds: Map::new(), facts: Map::new() }
     }
 
     /// Ends a phase: everything since the last one. Times of phases of one name add up.
-    pub(crate) fn phase(&mut self, name: &str) {
+    pub fn phase(&mut self, name: &str) {
         let now = Instant::now();
         let before = self.seconds.get(name).and_then(Value::as_f64).unwrap_or(0.0);
         let seconds = before + now.duration_since(self.started).as_secs_f64();
@@ -32,7 +32,7 @@ impl Stats {
     }
 
     /// Notes a fact.
-    pub(crate) fn set(&mut self, name: &str, value: impl Into<Value>) {
+    pub fn set(&mut self, name: &str, value: impl Into<Value>) {
         self.facts.insert(name.to_owned(), value.into());
     }
 
@@ -42,7 +42,7 @@ impl Stats {
     }
 
     /// Notes what a triangulation has, and what its construction did.
-    pub(crate) fn triangulation(&mut self, d: &impl Triangulation, counters: Counters) {
+    pub fn triangulation(&mut self, d: &impl Triangulation, counters: Counters) {
         self.set("points", d.ids_given());
         self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
@@ -90,7 +90,7 @@ impl Stats {
     }
 
     /// Writes all of it, if a file was named.
-    pub(crate) fn write(mut self, path: Option<&Path>) -> Result<(), Failure> {
+    pub fn write(mut self, path: Option<&Path>) -> Result<(), Failure> {
         let Some(path) = path else { return Ok(()) };
         // The same keys from every command: null where nothing was counted, zero where nothing was done.
         for key in ["points", "duplicates", "simplices", "hull"] {
@@ -117,7 +117,7 @@ fn hull<T: Triangulation>(d: &T) -> usize {
 }
 
 /// Work by name.
-pub(crate) fn work_done(work: &Work) -> Value {
+pub fn work_done(work: &Work) -> Value {
     json!({
         "visited": work.visited,
         "compared": work.compared,

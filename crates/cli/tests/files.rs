@@ -381,7 +381,6 @@ fn the_program_about_itself() {
     let output = place.run("triangulate p.csv -o m.npy --threads 5000");
     assert!(output.status.success() && text(&output.stderr).contains("not 5000"), "{}", text(&output.stderr));
     assert!(text(&output.stderr).contains("3 points, 1 triangle, 3 on the hull"));
-    place.fail("reduce p.csv --against no-such-program", 1, "cannot be run");
     place.fail("draw p.csv --cut 1,0,0,0 -o m.png", 2, "--cut and --wireframe are for space");
     place.file("long.csv", format!("1,{}\n", "9e".repeat(30_000)));
     let told = text(&place.run("info long.csv").stderr);

@@ -36,7 +36,6 @@ fn points_beside_segments_stay() {
         "draw beside.poly -o beside.node --to svg",
         "info beside.poly --stats beside.node",
         "simplify beside.poly --max-error 1 -o m.npy --kept beside.node",
-        "reduce beside.poly -o beside.node",
         "polygons beside.poly -o beside.node --to geojson",
         "dtm p.csv --breaklines beside.poly --cell 1 -o beside.node --to asc",
     ] {

@@ -1,5 +1,8 @@
 //! All tests of the program from outside, in one program.
 
+/// The program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_delone");
+
 mod alpha;
 mod attributes;
 #[cfg(target_os = "linux")]
@@ -7,7 +10,7 @@ mod bytes;
 mod cells;
 mod diagrams;
 mod dtm;
-#[cfg(all(feature = "experiments", feature = "parquet"))]
+#[cfg(feature = "parquet")]
 mod features;
 mod files;
 mod folder;

@@ -238,7 +238,6 @@ fn wrong_usage() {
         ("triangulate p.csv -o m.ply --stats p.csv", "would overwrite"),
         ("draw p.csv -o m.svg --stats p.csv", "would overwrite"),
         ("info p.csv --stats p.csv", "would overwrite"),
-        ("reduce p.csv --stats ./p.csv", "would overwrite"),
         ("triangulate p.csv -o m.ply --algorithm sweep", "sweep"),
         ("triangulate p.csv -o m.ply --locate spatial", "--locate"),
         ("triangulate p.csv -o m.ply --dim 4", "4"),
@@ -307,25 +306,6 @@ fn the_same_seed_gives_the_same_bytes() {
 }
 
 #[test]
-fn points_that_fail_are_reduced() {
-    let place = Place::new();
-    place.succeed("generate uniform -n 60 -o p.npy");
-    assert!(place.succeed("reduce p.npy").starts_with("nothing to reduce"));
-    // A program that gives up on arrays of 300 bytes: on eleven points or more.
-    let program = env!("CARGO_BIN_EXE_delone");
-    let fails_on_eleven =
-        format!("test $(wc -c < {{points}}) -lt 300 && {program} triangulate {{points}} -o {{triangles}}");
-    let output = Command::new(program)
-        .current_dir(place.0.path())
-        .args(["reduce", "p.npy", "-o", "small.npy", "--against", &fails_on_eleven])
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success());
-    assert!(text(&output.stdout).starts_with("// 11 points: the command fails"));
-    assert!(place.path("small.npy").exists());
-}
-
-#[test]
 fn every_command_writes_stats() {
     let place = Place::new();
     for line in [
@@ -334,7 +314,6 @@ fn every_command_writes_stats() {
         "check p.npy m.npy",
         "draw p.npy -o m.svg",
         "info p.npy",
-        "reduce p.npy",
         "voronoi p.npy -o v.svg",
         "hull p.npy -o h.npy",
         "furthest p.npy --queries p.npy -o f.npy",
@@ -355,9 +334,7 @@ fn every_command_writes_stats() {
 #[test]
 fn help_shows_examples() {
     let place = Place::new();
-    for command in
-        ["triangulate", "check", "generate", "draw", "info", "reduce", "voronoi", "hull", "furthest"]
-    {
+    for command in ["triangulate", "check", "generate", "draw", "info", "voronoi", "hull", "furthest"] {
         assert!(place.succeed(&format!("{command} --help")).contains("Example"), "{command}");
     }
     assert!(place.succeed("--version").starts_with("delone "));
@@ -415,41 +392,6 @@ fn every_way_to_build_writes_the_same_triangles() {
 }
 
 #[test]
-fn operations_are_replayed() {
-    let place = Place::new();
-    let operations =
-        "# a square\n+ 0 0\n+ 4 0\n+ 0 4\n+ 4 4\n? 1 1\n+ 4 0\n> 3 5 5\n@ 9 9\n? 9 0\n? 2 0\n- 0\n? 0 0\n";
-    place.file("ops.txt", operations);
-    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "delaunay-tree"] {
-        let answers = place.succeed(&format!("replay ops.txt -o t.npy -o t.svg --check --locate {locate}"));
-        let lines: Vec<_> = answers.lines().collect();
-        assert_eq!(lines[..4], ["+ 0", "+ 1", "+ 2", "+ 3"], "{locate}");
-        assert!(lines[4].starts_with("? triangle 0 1"), "{locate}: {}", lines[4]);
-        assert_eq!(lines[5..], ["= 1", "@ 3", "? outside 1 3", "? edge 0 1", "? outside 2 1"], "{locate}");
-    }
-    let told = place.run("replay ops.txt -o - --to ele --quiet");
-    let lines = |bytes: &[u8]| String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(lines(&told.stdout)[0], "1 3 0", "the file is alone");
-    assert_eq!(lines(&told.stderr)[..4], ["+ 0", "+ 1", "+ 2", "+ 3"]);
-    place.file("bad.txt", "+ 0 0\n- 0\n- 0\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 3: 0 is no vertex");
-    place.file("bad.txt", "+ 0 0\n+ 1\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 2: + takes 2 values, not 1");
-    place.file("bad.txt", "-\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 1: - takes 1 value, not 0");
-    place.file("bad.txt", "+ 0 inf\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 1: the y coordinate inf is not finite");
-    place.file("bad.txt", "insert 0 0\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 1: \"insert\" is no operation");
-    place.file("bad.txt", "+ 0 0\n- 0\n");
-    place.fail("replay bad.txt -o t2.npy --locate history", 1, "cannot lose vertices");
-    place.fail("replay bad.txt -o t2.npy --locate spatial", 2, "building in bulk");
-    place.file("bad.txt", [0xff, 0xfe, 0x00]);
-    place.fail("replay bad.txt -o t2.npy", 1, "is not text");
-    place.fail("replay nothing.txt -o t2.npy", 1, "nothing.txt");
-}
-
-#[test]
 fn wrong_queries_are_named() {
     let place = Place::new();
     place.file("points.csv", "0,0\n4,0\n0,4\n");
@@ -475,25 +417,39 @@ fn wrong_queries_are_named() {
     assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "x,y,a,b,c\n");
 }
 
+/// What was a command once is named with the program that has it.
+#[test]
+fn commands_of_the_lab_name_it() {
+    let place = Place::new();
+    for (command, rest) in [
+        ("experiment", "hierarchy -o out"),
+        ("animate", "p.csv"),
+        ("reduce", "--help"),
+        ("replay", "- --check"),
+    ] {
+        let output = place.run(&format!("{command} {rest}"));
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let told = text(&output.stderr);
+        assert!(
+            told.contains(&format!("help: {command} is a command of delone-lab: cargo install")),
+            "{told}"
+        );
+    }
+}
+
 /// Features that are left out are named, with the way to get them.
 #[test]
-#[cfg(not(any(feature = "experiments", feature = "parquet")))]
+#[cfg(not(feature = "parquet"))]
 fn features_that_are_off_say_how_to_get_them() {
     let place = Place::new();
     place.file("p.csv", "0,0\n1,0\n0,1\n");
-    for (line, feature) in [
-        ("experiment", "experiments"),
-        ("experiment hierarchy --largest 5000 -o out", "experiments"),
-        ("experiment --largest -1 scan model.ply", "experiments"),
-        ("tiles p.csv -o t --parquet", "parquet"),
-        ("tiles nothing.csv --parquet -o t", "parquet"),
-    ] {
+    for (line, feature) in
+        [("tiles p.csv -o t --parquet", "parquet"), ("tiles nothing.csv --parquet -o t", "parquet")]
+    {
         place.fail(line, 2, &format!("built without {feature}"));
         let help = text(&place.run(line).stderr);
         assert!(help.contains(&format!("cargo install delone-cli --features {feature}")), "{help}");
     }
-    let help = place.succeed("--help").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(help.contains("without the feature experiments"), "{help}");
     let help = place.succeed("tiles --help").split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(help.contains("without the feature parquet"), "{help}");
 }

@@ -18,21 +18,6 @@ fn array(bytes: &[u8]) -> Vec<Vec<i64>> {
     numbers.chunks(3).map(<[i64]>::to_vec).collect()
 }
 
-#[test]
-fn graphs_that_do_not_fail_are_not_reduced() {
-    let place = Place::new();
-    place.file("cross.poly", CROSS);
-    assert!(place.succeed("reduce cross.poly -o small.poly").starts_with("nothing to reduce"));
-    place.file("p.csv", "0,0\n1,0\n0,1\n");
-    place.file("s.csv", "0,1\n");
-    assert!(place.succeed("reduce p.csv --segments s.csv").starts_with("nothing to reduce"));
-    place.fail("reduce p.csv --segments s.csv --against true", 2, "--against judges points");
-    // What is no number fails, and is what is left.
-    place.file("nan.csv", "0,0\n1,0\n0,1\nnan,2\n5,5\n");
-    let told = place.succeed("-q reduce nan.csv --segments s.csv");
-    assert!(told.starts_with("// 1 points, 0 segments: point 0 has the x coordinate NaN"), "{told}");
-}
-
 /// A square with a square hole, a duplicate of its first corner, and a region, counted from 1.
 const PLAN: &str = "9 2 0 0
 1 0 0

@@ -140,20 +140,6 @@ fn pictures_in_space() {
 }
 
 #[test]
-fn operations_in_space() {
-    let place = Place::new();
-    place.file(
-        "ops.txt",
-        "+ 0 0 0\n+ 1 0 0\n+ 0 1 0\n? .2 .2 0\n+ 0 0 1\n+ 0 0 1\n? .2 .2 .2\n? 5 5 5\n? 0.5 0 0\n@ 1 1 1\n> 3 0 0 2\n- 0\n? .2 .2 .2\n",
-    );
-    let said = place.succeed("replay ops.txt --dim 3 -o end.npy -o end.svg --check -q");
-    let expected = "+ 0\n+ 1\n+ 2\n? facet 0 1 2\n+ 3\n= 3\n? tetrahedron 0 1 2 3\n? outside 1 2 3\n? edge 0 1\n@ 3\n? nowhere\n";
-    assert_eq!(said, expected);
-    place.file("bad.txt", "+ 0 0\n");
-    place.fail("replay bad.txt --dim 3 -o x.npy", 1, "line 1: + takes 3 values, not 2");
-}
-
-#[test]
 fn hostile_points_in_space() {
     let place = Place::new();
     for (name, text, dimension, cells) in [

@@ -63,10 +63,6 @@ fn constructions_and_changes_take_them_too() {
         counts.push(visited(&place));
     }
     assert!(counts[0] != counts[1] && counts[2] > 2 * counts[0], "{counts:?}");
-    place.file("ops.txt", "+ 0 0\n+ 4 0\n+ 0 4\n? 1 1\n+ 1 1\n- 0\n@ 0 0\n");
-    let plain = place.succeed("replay ops.txt -o t2.npy --check");
-    let line = "replay ops.txt -o t3.npy --check --locate hierarchy --ratio 1.25 --smallest-level 0";
-    assert_eq!(place.succeed(line), plain);
     place.succeed("generate ball -n 500 -o b.csv");
     let line =
         "locate b.csv --dim 3 --queries b.csv -o - --to csv --locate hierarchy --ratio 4 --walk visibility";
@@ -105,7 +101,6 @@ fn what_a_strategy_does_not_have_is_named() {
     ] {
         place.fail(&format!("locate p.csv --queries p.csv -o t.csv {line}"), 2, message);
         place.fail(&format!("nearest p.csv --queries p.csv -o t.csv {line}"), 2, message);
-        place.fail(&format!("replay none.txt -o t.npy {line}"), 2, message);
         if line.starts_with("--locate") {
             let incremental = format!("triangulate p.csv -o t.ply --algorithm incremental {line}");
             place.fail(&incremental, 2, message);

@@ -65,7 +65,6 @@ fn a_form_needs_well_known_text() {
             "--wkt is for outputs of well-known text",
         );
     }
-    place.fail("reduce p.csv --wkt lines", 2, "--wkt is for outputs of well-known text");
     place.fail("triangulate p.csv --wkt one -o out.wkt", 2, "one");
 }
 

@@ -28,7 +28,7 @@ const SHARES: [f64; 8] = [0.0001, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
 const MEAN_IN_DISK: f64 = 2.0 / 3.0;
 const MEAN_IN_BALL: f64 = 3.0 / 4.0;
 
-/// `delone experiment brownian`: points that move by up to one unit a step, four units apart; and what the automatic
+/// `delone-lab experiment brownian`: points that move by up to one unit a step, four units apart; and what the automatic
 /// mover needs, by displacement.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();

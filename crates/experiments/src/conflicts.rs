@@ -1,4 +1,4 @@
-//! `delone experiment conflicts`: the equations (1) to (5) of the analysis of conflict lists, step by step.
+//! `delone-lab experiment conflicts`: the equations (1) to (5) of the analysis of conflict lists, step by step.
 //!
 //! Source: lecture notes on randomized incremental Delaunay triangulation; Clarkson & Shor 1989. T_r are the triangles of
 //! the first r of n points in random order, ghosts included, K(t) the points in the circle of a triangle t, k_r(q) the

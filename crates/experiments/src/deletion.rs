@@ -1,4 +1,4 @@
-//! `delone experiment deletion`: what removing random vertices costs, with and without a hierarchy.
+//! `delone-lab experiment deletion`: what removing random vertices costs, with and without a hierarchy.
 //!
 //! Source: Devillers 1998, §5.1: the deletion of a random point takes expected constant time, since its degree and the number
 //! of its levels are constant.

@@ -1,4 +1,4 @@
-//! `delone experiment disks`: what the analysis of hints counts, and disks beyond its assumptions.
+//! `delone-lab experiment disks`: what the analysis of hints counts, and disks beyond its assumptions.
 //!
 //! Source: Devillers 2011: Lemmas 1 and 2 and the claims of Theorem 3 (§4), disks that overlap (§6.1), disks of different radii
 //! (§6.2), balls in space (§6.3); what is the same in all instances, the strong and the weak problem (§1).

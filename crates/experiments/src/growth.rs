@@ -16,7 +16,7 @@ const RUNS: usize = 3;
 /// Points, from which on one run is made.
 const SINGLE_RUN_POINTS: usize = 20_000_000;
 
-/// `delone experiment growth`: from a thousand points on, in space up to a tenth as many as in the plane.
+/// `delone-lab experiment growth`: from a thousand points on, in space up to a tenth as many as in the plane.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let (largest, seed, all_threads) = (options.largest, options.seed, options.threads);
     let threads = all_threads.current_num_threads();

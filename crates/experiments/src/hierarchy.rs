@@ -1,4 +1,4 @@
-//! `delone experiment hierarchy`: constructions by the modes of the Delaunay hierarchy and other ways, and the hierarchy in space.
+//! `delone-lab experiment hierarchy`: constructions by the modes of the Delaunay hierarchy and other ways, and the hierarchy in space.
 //!
 //! Source: Devillers 1998, §5.5.2 and §6.
 

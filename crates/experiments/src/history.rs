@@ -1,4 +1,4 @@
-//! `delone experiment history`: how what ever appears in randomized incremental construction grows with the points, and what
+//! `delone-lab experiment history`: how what ever appears in randomized incremental construction grows with the points, and what
 //! locating costs (Guibas, Knuth & Sharir 1992, §2 and §3); and the work of conflict lists.
 
 use delone::{Algorithm2, Ask, Counters, Delaunay2, Locate, Work};

@@ -105,7 +105,7 @@ fn trials(options: &Options<'_>, n: usize) -> std::ops::Range<u64> {
     0..if n <= REPEATED { options.trials as u64 } else { 1 }
 }
 
-/// `delone experiment imprecise`.
+/// `delone-lab experiment imprecise`.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
     let mut plane = Report::new(options, "imprecise", "Disjoint unit disks", &METHODS, &PLANE);
@@ -136,7 +136,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     Ok(findings)
 }
 
-/// `delone experiment scan`: noise around the points of a scanned model, as strong as points are from their hints.
+/// `delone-lab experiment scan`: noise around the points of a scanned model, as strong as points are from their hints.
 pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
     let (largest, seed) = (options.largest, options.seed);
     let mut model = options.model.to_vec();

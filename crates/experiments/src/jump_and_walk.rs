@@ -1,4 +1,4 @@
-//! `delone experiment jump-and-walk`: the theorem of Devroye, Mücke & Zhu 1998 and its remarks, in figures.
+//! `delone-lab experiment jump-and-walk`: the theorem of Devroye, Mücke & Zhu 1998 and its remarks, in figures.
 //!
 //! Edges crossed by segments (the lemma); triangles visited from the nearest of 32 vertices (remark 6), the sample size of least
 //! cost and the growth of that cost (the theorem); other densities (remark 1), queries near the border (remark 2), changes and

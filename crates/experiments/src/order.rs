@@ -1,4 +1,4 @@
-//! `delone experiment order`: what the order of insertion does to randomized incremental construction.
+//! `delone-lab experiment order`: what the order of insertion does to randomized incremental construction.
 //!
 //! Source: Guibas, Knuth & Sharir 1992: the bad order of Figure 1 and the question of the variance (§2.1), adding to a set
 //! (Theorem 2.6), sorting on a parabola (§3). The unlucky site is with `history`.

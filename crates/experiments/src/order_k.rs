@@ -17,7 +17,7 @@ const ORDERS: [usize; 6] = [1, 2, 3, 4, 5, 8];
 /// How often each is made; the fastest counts.
 const RUNS: usize = 3;
 
-/// `delone experiment order-k`: from a hundred points on.
+/// `delone-lab experiment order-k`: from a hundred points on.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut table = options.table(
         "order-k",

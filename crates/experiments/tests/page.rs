@@ -190,11 +190,11 @@ fn tests_exist() {
 fn experiments_are_all_on_the_page() {
     let text = page(PAGES[0]);
     for experiment in EXPERIMENTS {
-        let command = format!("delone experiment {}", experiment.name);
+        let command = format!("delone-lab experiment {}", experiment.name);
         assert!(text.contains(&command), "{command} is not on the page");
     }
     for name in
-        text.split("delone experiment ").skip(1).filter_map(|rest| rest.split([' ', '`', '\n']).next())
+        text.split("delone-lab experiment ").skip(1).filter_map(|rest| rest.split([' ', '`', '\n']).next())
     {
         assert!(
             EXPERIMENTS.iter().any(|experiment| experiment.name == name),

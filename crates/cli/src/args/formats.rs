@@ -8,12 +8,12 @@ pub(crate) const IN_THE_PLANE: &[Contents] = &[Contents::Lines, Contents::Patche
 pub(crate) const IN_SPACE: &[Contents] = &[Contents::Surfaces, Contents::Indices];
 
 /// The formats that one of these is written to.
-pub(super) fn written(any: &[Contents]) -> String {
+pub fn written(any: &[Contents]) -> String {
     Format::with(any, Direction::Written)
 }
 
 /// The formats that these are read from.
-pub(super) fn read(contents: Contents) -> String {
+pub fn read(contents: Contents) -> String {
     Format::with(&[contents], Direction::Read)
 }
 
@@ -23,7 +23,7 @@ pub(super) fn outputs(any: &[Contents]) -> String {
 }
 
 /// A file of segments.
-pub(super) fn segments() -> String {
+pub fn segments() -> String {
     format!(
         "File of segments between the points: two indices a line from 0, or a file that has them ({})",
         read(Contents::Segments)

@@ -9,7 +9,7 @@ use super::formats;
 /// Segments, and what they mean.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Segments")]
-pub(crate) struct GraphArgs {
+pub struct GraphArgs {
     /// Segments between the points.
     #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
@@ -30,7 +30,7 @@ impl GraphArgs {
 
 /// The treatment of segments that cross.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CrossingsName {
+pub enum CrossingsName {
     /// It is an error, which names two segments and the place.
     Refuse,
     /// They are split there: points are added, which follow those of the input.
@@ -39,7 +39,7 @@ pub(crate) enum CrossingsName {
 
 /// The rule for the inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FillName {
+pub enum FillName {
     /// Places that an odd number of rings surrounds.
     EvenOdd,
     /// Places around which the rings wind, counter-clockwise less clockwise.

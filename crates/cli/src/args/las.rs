@@ -5,7 +5,7 @@ use delone_io::{LAS_CLASSES, LasFilter, LasFlag, Returns};
 
 /// Which points of LAS, LAZ and EPT are read, and what of them.
 #[derive(Clone, Debug, Default, Args)]
-pub(crate) struct LasArgs {
+pub struct LasArgs {
     /// LAS classes to keep, by number or name (ground, building, water, ...), separated by commas.
     #[arg(long, value_name = "CLASS", value_delimiter = ',', value_parser = class)]
     pub(crate) class: Vec<u8>,

@@ -4,9 +4,7 @@
 mod alpha;
 mod ask;
 mod edges;
-#[cfg(feature = "experiments")]
-mod experiment;
-mod formats;
+pub mod formats;
 mod graph;
 mod heights;
 mod las;
@@ -16,6 +14,7 @@ mod points;
 mod polygons;
 mod proximity;
 mod relief;
+mod run;
 mod shapes;
 mod strategy;
 mod surface;
@@ -29,61 +28,38 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use delone_io::{Contents, Crs, Format};
+use delone_io::{Contents, Format};
 
 pub(crate) use alpha::AlphaArgs;
-pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs};
 pub(crate) use edges::EdgeArgs;
-#[cfg(feature = "experiments")]
-pub(crate) use experiment::ExperimentArgs;
 pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
-pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
+pub use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use heights::{ContoursArgs, SimplifyArgs};
-use las::LasArgs;
+pub use las::LasArgs;
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use place::PlaceArgs;
-pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};
+pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use relief::{LightArgs, ReliefArgs, ReliefName};
-pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
-pub(crate) use strategy::{LocateName, StrategyArgs};
+pub use run::RunArgs;
+pub(crate) use shapes::{Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
+pub use strategy::{LocateName, StrategyArgs};
 pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
 pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
-pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
+pub use triangulate::AlgorithmName;
+pub(crate) use triangulate::{HintOrderName, TriangulateArgs};
 pub(crate) use weights::WeightArgs;
-pub(crate) use wkt::WktArgs;
+pub use wkt::WktArgs;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]
 #[command(name = "delone", version, arg_required_else_help = true, propagate_version = true)]
 pub(crate) struct Cli {
-    /// No progress and no notes on standard error; errors still appear.
-    #[arg(long, short, global = true)]
-    pub(crate) quiet: bool,
-    /// Fail, and write nothing, where an output has no room for something that the input has (attributes, the system of coordinates, heights,
-    /// lines), or triangles of a mesh are not as they were to be. Otherwise a line on standard error says so.
-    #[arg(long, global = true)]
-    pub(crate) strict: bool,
-    /// The system of coordinates of the input by its EPSG number, perhaps with that of its heights (25832+7837), where files do not tell it or
-    /// are wrong; files beside the input have it if they tell none. Outputs say it; nothing is transformed.
-    #[arg(long, value_name = "NUMBER", global = true, value_parser = system)]
-    pub(crate) epsg: Option<Crs>,
-    /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
-    /// the default constructions use them, in the plane and in space.
-    #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// Memory at most, in bytes or with K, M, G, T [default on Linux: as much as there is]. Compressed input may be of any length then;
-    /// without it, 1,000 times as long as its file.
-    #[arg(long, value_name = "SIZE", global = true, value_parser = tiles::size)]
-    pub(crate) max_memory: Option<u64>,
-    /// Bytes of all outputs at most, as for --max-memory.
-    #[arg(long, value_name = "SIZE", global = true, value_parser = tiles::size)]
-    pub(crate) max_output: Option<u64>,
-    /// Points of the input at most.
-    #[arg(long, value_name = "N", global = true, value_parser = count)]
-    pub(crate) max_points: Option<usize>,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -125,30 +101,14 @@ pub(crate) enum Command {
     Relief(ReliefArgs),
     /// Thin points with heights or rasters: a mesh of few of them that is near all others.
     Simplify(SimplifyArgs),
-    /// Insert, remove, move and ask, as a text file says, one operation a line.
-    Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?
     Check(CheckArgs),
     /// Make a named set of points, or of points and segments; the same seed gives the same bytes on every machine.
     Generate(GenerateArgs),
     /// Draw points, triangles and hull as SVG or PNG.
     Draw(DrawArgs),
-    /// Show points in motion, or what an algorithm does, as a moving picture.
-    Animate(AnimateArgs),
     /// Tell what is in a file of points: counts, bounds, duplicates, degeneracies.
     Info(InfoArgs),
-    /// Shrink points on which algorithms disagree, and print them as a test.
-    Reduce(ReduceArgs),
-    /// Repeat the experiments of the papers, with the papers' figures beside.
-    #[cfg(feature = "experiments")]
-    Experiment(ExperimentArgs),
-    /// Repeat the experiments of the papers. Not in this program, which was built without the feature experiments.
-    #[cfg(not(feature = "experiments"))]
-    Experiment {
-        /// Read by a program that has the feature.
-        #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-        _rest: Vec<std::ffi::OsString>,
-    },
     /// Print the version.
     Version,
     /// Print a script that completes commands and options in a shell.
@@ -170,7 +130,7 @@ pub(crate) enum Command {
 
 /// How points are read.
 #[derive(Clone, Debug, Args)]
-pub(crate) struct InputArgs {
+pub struct InputArgs {
     /// Files of points.
     #[arg(
         value_name = "IN", required = true,
@@ -179,7 +139,7 @@ pub(crate) struct InputArgs {
             formats::read(Contents::Points)
         )
     )]
-    pub(crate) input: Vec<PathBuf>,
+    pub input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<Format>,
@@ -191,7 +151,7 @@ pub(crate) struct InputArgs {
     pub(crate) columns: Vec<String>,
     /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
-    pub(crate) stats: Option<PathBuf>,
+    pub stats: Option<PathBuf>,
 }
 
 impl InputArgs {
@@ -201,7 +161,7 @@ impl InputArgs {
     }
 
     /// The files that are read.
-    pub(crate) fn paths(&self) -> Vec<&Path> {
+    pub fn paths(&self) -> Vec<&Path> {
         self.input.iter().map(PathBuf::as_path).collect()
     }
 
@@ -211,7 +171,7 @@ impl InputArgs {
     }
 
     /// The name of the set in messages.
-    pub(crate) fn label(&self) -> PathBuf {
+    pub fn label(&self) -> PathBuf {
         match &self.input[..] {
             [one] => one.clone(),
             [first, rest @ ..] => format!("{} and {} more", first.display(), rest.len()).into(),
@@ -228,24 +188,13 @@ fn ratio(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a ratio is from 0 to 1".to_owned())
 }
 
-/// A system of coordinates by its number, and perhaps that of a system of heights.
-fn system(text: &str) -> Result<Crs, String> {
-    let is_number = |text: &str| text.parse().is_ok_and(|number: u32| (1024..=32766).contains(&number));
-    let bare = text.rsplit(':').next().unwrap_or_default();
-    let named = bare.split('+').count() <= 2 && bare.split('+').all(is_number);
-    named
-        .then(|| Crs::of_name(&format!("EPSG:{bare}")))
-        .flatten()
-        .ok_or_else(|| "it is no number from 1024 to 32766, nor two of them as in 25832+7837".to_owned())
-}
-
 /// A length in coordinate units.
 fn length(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|x: &f64| *x >= 0.0).ok_or_else(|| "it is no length".to_owned())
 }
 
 /// A number of things, 1e6 as well as 1000000.
-fn count(text: &str) -> Result<usize, String> {
+pub fn count(text: &str) -> Result<usize, String> {
     let plain = text.replace('_', "");
     let scientific = || plain.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..9e15).contains(n));
     plain
@@ -257,14 +206,14 @@ fn count(text: &str) -> Result<usize, String> {
 
 /// The plane or space.
 #[derive(Clone, Copy, Debug, Args)]
-pub(crate) struct DimArgs {
+pub struct DimArgs {
     /// Dimension: 2 takes x and y, 3 takes z too.
     #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
     pub(crate) dim: u8,
 }
 
 impl DimArgs {
-    pub(crate) fn is_space(self) -> bool {
+    pub fn is_space(self) -> bool {
         self.dim == 3
     }
 }

@@ -1,4 +1,4 @@
-//! Arguments of commands that make, describe and judge points and meshes: `generate`, `info`, `check`, `reduce`.
+//! Arguments of commands that make, describe and judge points and meshes: `generate`, `info`, `check`.
 
 use std::path::{Path, PathBuf};
 
@@ -122,36 +122,4 @@ impl CheckArgs {
         self.mesh = files.pop().unwrap_or_default();
         None
     }
-}
-
-/// Shrink points.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  delone reduce points.csv -o small.csv
-  delone reduce plan.poly -o small.poly
-  delone reduce points.npy --against 'python3 other.py {points} {triangles}'
-
-Without --against, points fail on which Delone's algorithms disagree or a check fails; with segments also where the order of
-the input makes a difference. With it, points fail for
-which the command fails, or writes triangles that are not Delaunay; {points} and {triangles} are .npy files.")]
-pub(crate) struct ReduceArgs {
-    #[command(flatten)]
-    pub(crate) input: InputArgs,
-    /// Another program to judge instead.
-    #[arg(long, value_name = "COMMAND")]
-    pub(crate) against: Option<String>,
-    /// Segments between the points.
-    #[arg(long, value_name = "FILE", help = formats::segments())]
-    pub(crate) segments: Option<PathBuf>,
-    /// The reduced points.
-    #[arg(
-        long, short, value_name = "OUT",
-        help = format!(
-            "File for the reduced points ({}; with segments {})",
-            formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])
-        )
-    )]
-    pub(crate) output: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) wkt: WktArgs,
 }

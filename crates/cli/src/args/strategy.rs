@@ -1,4 +1,4 @@
-//! How points are located: a strategy and its parameters, for `triangulate`, `locate`, `nearest` and `replay`.
+//! How points are located: a strategy and its parameters, for `triangulate`, `locate`, `nearest` and others.
 //!
 //! A parameter that the chosen strategy does not have is refused by its name.
 
@@ -11,7 +11,7 @@ use crate::message::Failure;
 /// The strategy and its parameters.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Point location")]
-pub(crate) struct StrategyArgs {
+pub struct StrategyArgs {
     /// Point location; the results are the same [default: tree; spatial for triangulate].
     #[arg(long, value_name = "NAME")]
     pub(crate) locate: Option<LocateName>,
@@ -49,7 +49,7 @@ pub(crate) struct StrategyArgs {
 
 /// Point location strategies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum LocateName {
+pub enum LocateName {
     /// A k-d tree of hints: the fastest for any set and any change.
     Tree,
     /// Walk from the vertex inserted last.
@@ -156,8 +156,8 @@ impl StrategyArgs {
     }
 
     /// The option that the library means when it refuses a strategy.
-    pub(crate) fn refused(&self, error: &delone::Error) -> Failure {
-        let help = "see delone COMMAND --help";
+    pub fn refused(&self, error: &delone::Error) -> Failure {
+        let help = "see the --help of the command";
         match (error, self.phase3, self.walk) {
             (delone::Error::Parameter { name, value, range }, ..) => {
                 Failure::usage(format!("--{} is {value}; it must be {range}", name.replace('_', "-")), help)

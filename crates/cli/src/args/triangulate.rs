@@ -96,7 +96,7 @@ impl TriangulateArgs {
 
 /// Bulk algorithms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum AlgorithmName {
+pub enum AlgorithmName {
     /// Divide and conquer in Morton order: the fastest, in the plane.
     DivideConquer,
     /// One by one in random order; --locate says how points are located.

@@ -9,7 +9,7 @@ use crate::message::Failure;
 
 /// How well-known text is written.
 #[derive(Clone, Debug, Default, Args)]
-pub(crate) struct WktArgs {
+pub struct WktArgs {
     /// The form of outputs of well-known text [default: lines].
     #[arg(long, value_name = "FORM")]
     wkt: Option<WktForm>,
@@ -29,7 +29,7 @@ impl WktArgs {
     ///
     /// # Errors
     /// A form without an output of well-known text.
-    pub(crate) fn of(&self, mut outputs: Vec<(PathBuf, Format)>) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    pub fn of(&self, mut outputs: Vec<(PathBuf, Format)>) -> Result<Vec<(PathBuf, Format)>, Failure> {
         let Some(form) = self.wkt else { return Ok(outputs) };
         let mut is_written = false;
         for (_, format) in outputs.iter_mut().filter(|(_, format)| *format == Format::Wkt) {

@@ -20,7 +20,7 @@ use crate::room;
 use crate::stats::Stats;
 
 /// Whether a command is about segments: they were asked for, or files hold them.
-pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
+pub fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
     let holds = |path: &PathBuf| {
         let format = input.from.or_else(|| Format::of(path).ok());
         format.is_some_and(|format| files::holds_lines(path, format))

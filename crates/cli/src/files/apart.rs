@@ -102,10 +102,7 @@ fn read_with(path: &Path) -> Vec<PathBuf> {
 }
 
 /// Refuses a command that would write over a file it reads, write a file twice, or where it cannot write.
-pub(crate) fn keep_apart<'a>(
-    inputs: &[&Path],
-    outputs: impl IntoIterator<Item = &'a Path>,
-) -> Result<(), Failure> {
+pub fn keep_apart<'a>(inputs: &[&Path], outputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
     let outputs: Vec<&Path> = outputs.into_iter().collect();
     keep_names_apart(inputs, outputs.iter().copied())?;
     outputs.into_iter().try_for_each(check_output)

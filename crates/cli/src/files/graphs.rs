@@ -12,7 +12,7 @@ use crate::limits;
 use crate::message::{Failure, lost};
 
 /// Reads the points and segments of a command.
-pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> Result<Graph, Failure> {
+pub fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> Result<Graph, Failure> {
     Ok(graph_with_points(args, segments, quiet)?.0)
 }
 

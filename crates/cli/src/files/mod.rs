@@ -13,16 +13,15 @@ use std::path::{Path, PathBuf};
 use delone::surface::Grid;
 use delone_io::{Beside, Cloud, Contents, Crs, Direction, Format, Raster, ReadOptions, Source, decompressed};
 
-pub(crate) use apart::{beside, keep_apart, keep_names_apart};
+pub use apart::keep_apart;
+pub(crate) use apart::{beside, keep_names_apart};
 pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
-pub(crate) use graphs::{
-    graph, graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings,
-};
+pub use graphs::graph;
+pub(crate) use graphs::{graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
-pub(crate) use write::{
-    cannot_write, create, finish, folder_of, publish, scratch, write, write_mesh, write_own,
-};
+pub(crate) use write::{cannot_write, create, finish, folder_of, publish, scratch, write_mesh};
+pub use write::{write, write_own};
 
 use crate::args::InputArgs;
 use crate::limits;
@@ -65,7 +64,7 @@ fn is_special(path: &Path) -> bool {
 }
 
 /// Outputs with their formats, kept apart from the inputs, from each other and from the statistics.
-pub(crate) fn outputs(
+pub fn outputs(
     paths: &[PathBuf],
     to: Option<Format>,
     stats: Option<&Path>,
@@ -202,7 +201,7 @@ pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
 }
 
 /// Reads the points of a command.
-pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+pub fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let options = options(args, dimension);
     read_all(args, quiet, |source, format, beside| {
         delone_io::read_points_beside(source, format, &options, beside)
@@ -377,7 +376,7 @@ pub(crate) fn wrong(path: &Path, format: Format, error: &delone_io::Error) -> Fa
 }
 
 /// Reads a text.
-pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
+pub fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
     let (mut source, _phase) = open(path, Format::Text, READING, quiet)?;
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| Failure::file(path, &error.into()))?;
@@ -388,7 +387,7 @@ pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
 }
 
 /// Reads the simplices of a mesh, or what else is said of them.
-pub(crate) fn simplices<T>(
+pub fn simplices<T>(
     path: &Path,
     quiet: bool,
     read: impl Fn(Box<dyn Source>, Format) -> Result<T, delone_io::Error>,

@@ -62,7 +62,7 @@ pub(crate) fn write_mesh(
 }
 
 /// Writes a file whole, or leaves what was there. What the writer returns is there unless nobody reads on.
-pub(crate) fn write<T: Default>(
+pub fn write<T: Default>(
     path: &Path,
     content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
 ) -> Result<T, Failure> {
@@ -85,7 +85,7 @@ pub(crate) fn write<T: Default>(
 }
 
 /// Writes a file of a folder that is this program's own, which has its name at once.
-pub(crate) fn write_own<T>(
+pub fn write_own<T>(
     path: &Path,
     content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
 ) -> Result<T, Failure> {

@@ -22,7 +22,7 @@ use crate::progress::Phase;
 use crate::stats::Stats;
 
 /// The plane or space, by its triangulation.
-pub(crate) trait Room: Change<Point: Drawable> {
+pub trait Room: Change<Point: Drawable> {
     const WORDS: Words;
     type Algorithm: Copy;
     /// The algorithm of commands that leave no choice.
@@ -85,9 +85,9 @@ pub(crate) trait Room: Change<Point: Drawable> {
 }
 
 /// The words of a dimension.
-pub(crate) struct Words {
+pub struct Words {
     /// A simplex, and several.
-    pub(crate) simplex: [&'static str; 2],
+    pub simplex: [&'static str; 2],
     /// The word for corners of neighbors that could be divided in another way.
     pub(crate) tied: &'static str,
     /// The words of `check` for simplices in negative order: in statistics, and in a sentence.
@@ -97,7 +97,7 @@ pub(crate) struct Words {
 }
 
 /// How to build, and what statistics say of it.
-pub(crate) struct Plan<A> {
+pub struct Plan<A> {
     pub(crate) algorithm: A,
     pub(crate) name: AlgorithmName,
     /// How points are located, where that is a choice.
@@ -108,7 +108,7 @@ pub(crate) struct Plan<A> {
 const WITH_WEIGHTS: &str = "a construction with weights";
 
 /// Why simplices from elsewhere are wrong.
-pub(crate) enum Objection {
+pub enum Objection {
     /// The points themselves are.
     Points(delone::Error),
     Simplices(String),
@@ -136,7 +136,7 @@ pub(crate) fn bounds<P: AsRef<[f64]>>(points: &[P], label: &Path) -> Result<Boun
 }
 
 /// Reads points that are asked for, or centers.
-pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>, Failure> {
+pub fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>, Failure> {
     R::take_points(&mut files::queries(path, R::Point::COUNT, Vec::new(), quiet)?, path)
 }
 
@@ -155,7 +155,7 @@ pub(crate) fn queries_with<R: Room>(
 }
 
 /// Refuses formats that hold no triangulations.
-pub(crate) fn check_formats<R: Room>(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+pub fn check_formats<R: Room>(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     files::check_formats(outputs, &[R::Point::CONTENTS])
 }
 
@@ -171,7 +171,7 @@ pub(crate) fn build<R: Room>(
 }
 
 /// The strategy of a triangulation that is asked or changed, as `purpose` says.
-pub(crate) fn strategy<R: Room>(args: &StrategyArgs, purpose: &str) -> Result<Locate, Failure> {
+pub fn strategy<R: Room>(args: &StrategyArgs, purpose: &str) -> Result<Locate, Failure> {
     located::<R>(args, LocateName::Tree)?.ok_or_else(|| {
         Failure::usage(
             format!("that strategy is for building in bulk, not for {purpose}"),
@@ -269,7 +269,7 @@ pub(crate) fn mesh<'a, T: Triangulation>(
 }
 
 /// The least of all even permutations of corners: the same whatever found them.
-pub(crate) fn positive(corners: &[VertexId]) -> Vec<usize> {
+pub fn positive(corners: &[VertexId]) -> Vec<usize> {
     let mut corners: Vec<usize> = corners.iter().map(|v| v.index()).collect();
     let before = |(k, &v): (usize, &usize)| corners[..k].iter().filter(|&&w| w > v).count();
     let is_odd = corners.iter().enumerate().map(before).sum::<usize>() % 2 == 1;

@@ -12,6 +12,9 @@ pub(super) type Point = [f64; 3];
 /// Numbers that say what there is: corners one after the other, and what is known of them.
 pub(super) type Shape = Vec<f64>;
 
+/// Its name begins with the command; what it gives has no order.
+pub(super) type Row = (&'static str, fn(&Given) -> Vec<Shape>);
+
 /// Points with what commands need besides: as they were.
 #[derive(Clone)]
 pub(super) struct Set {
@@ -362,4 +365,11 @@ pub(super) fn integers(count: usize) -> Set {
     let mut points =
         |count: usize| (0..count).map(|_| std::array::from_fn(|_| random.below(1024) as f64)).collect();
     Set { name: "integers", points: points(count), queries: points(20), unit: 1024.0, steep: 1024.0 }
+}
+
+/// A picture of lines and areas. Its bar is of a round length, which another unit makes another one.
+pub(super) fn drawn(g: &Given, name: &str) -> Vec<Shape> {
+    let text = g.place.read(name);
+    let lines = text.lines().filter(|line| !line.starts_with("<text") && !line.contains("stroke=\"black\""));
+    lines.map(|line| line.bytes().map(f64::from).collect()).collect()
 }

@@ -1,9 +1,6 @@
 //! The commands that give geometry, each with what there is to compare of it.
 
-use super::given::{Given, Point, Shape, compare};
-
-/// Its name begins with the command; what it gives has no order.
-pub(super) type Row = (&'static str, fn(&Given) -> Vec<Shape>);
+use super::given::{Given, Point, Row, Shape, compare, drawn};
 
 /// A triangulation of the plane with heights.
 fn triangles(g: &Given, options: &str) -> Vec<Shape> {
@@ -125,55 +122,6 @@ fn thinned(g: &Given, options: &str) -> Vec<Shape> {
     let mut shapes = g.obj("t.obj");
     shapes.extend(g.table("k.csv").iter().map(|row| g.point(row[0]).to_vec()));
     shapes
-}
-
-/// A picture, byte by byte.
-fn picture(g: &Given, name: &str) -> Vec<Shape> {
-    vec![std::fs::read(g.place.path(name)).expect("a picture").into_iter().map(f64::from).collect()]
-}
-
-/// A picture of lines and areas. Its bar is of a round length, which another unit makes another one.
-fn drawn(g: &Given, name: &str) -> Vec<Shape> {
-    let text = g.place.read(name);
-    let lines = text.lines().filter(|line| !line.starts_with("<text") && !line.contains("stroke=\"black\""));
-    lines.map(|line| line.bytes().map(f64::from).collect()).collect()
-}
-
-/// The result of points one after the other, some of which go and move; and the locations of queries then.
-fn replayed(g: &Given, options: &str, axes: usize) -> Vec<Shape> {
-    let place = |p: Point| g.to(p)[..axes].iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(" ");
-    let mut known: Vec<Point> = Vec::new();
-    let mut ops = String::new();
-    for &p in g.points() {
-        ops += &format!("+ {}\n", place(p));
-        if !known.contains(&p) {
-            known.push(p);
-        }
-    }
-    for (id, p) in known.iter_mut().enumerate() {
-        let part = (p[0] * 31.0 / g.set.unit).fract();
-        if part < 0.25 {
-            ops += &format!("- {id}\n");
-        } else if part < 0.5 {
-            *p = p.map(|x| x + part * g.set.unit);
-            ops += &format!("> {id} {}\n", place(*p));
-        }
-    }
-    g.set.queries.iter().for_each(|&q| ops += &format!("? {0}\n@ {0}\n", place(q)));
-    g.place.file("ops.txt", ops);
-    let answers = g.run(&format!("replay ops.txt {options} -o r.obj"));
-    let answers = answers.lines().filter(|line| line.starts_with(['?', '@']));
-    let answer = |(k, line): (usize, &str)| {
-        // Of facets of the hull that are equally near that with the smallest ids is said.
-        if axes == 3 && line.starts_with("? outside") {
-            return g.set.queries[k / 2].to_vec();
-        }
-        let words = line.split(' ').filter_map(|word| word.parse::<usize>().ok());
-        let mut corners: Vec<Point> = words.map(|id| known[id]).collect();
-        corners.sort_by(|p, q| compare(p, q));
-        [g.set.queries[k / 2].to_vec(), corners.concat()].concat()
-    };
-    g.obj("r.obj").into_iter().chain(answers.enumerate().map(answer)).collect()
 }
 
 pub(super) const PLANE: &[Row] = &[
@@ -331,7 +279,6 @@ pub(super) const PLANE: &[Row] = &[
         g.run("window t --points 40 -o some.obj");
         g.obj("some.obj")
     }),
-    ("replay", |g| replayed(g, "--check", 2)),
     ("draw", |g| {
         g.segments("s.csv", 8);
         g.run("draw p.csv --segments s.csv --crossings split -o d.svg");
@@ -340,14 +287,6 @@ pub(super) const PLANE: &[Row] = &[
     ("draw --certain", |g| {
         g.run(&format!("draw p.csv --disks {} --certain -o d.svg", g.part(0.01, 1)));
         drawn(g, "d.svg")
-    }),
-    ("animate", |g| {
-        g.run("animate p.csv --steps 3 --size 100 -o d.png");
-        picture(g, "d.png")
-    }),
-    ("animate --show", |g| {
-        g.run("animate p.csv --show flips --steps 9 -o f-{}.svg");
-        drawn(g, "f-9.svg")
     }),
 ];
 
@@ -409,7 +348,6 @@ pub(super) const SPACE: &[Row] = &[
     ("interpolate --dim 3 --method linear", |g| space_values(g, "--method linear --outside hull")),
     ("interpolate --dim 3 --method laplace", |g| space_values(g, "--method laplace")),
     ("interpolate --dim 3 --method smooth", |g| space_values(g, "--method smooth")),
-    ("replay --dim 3", |g| replayed(g, "--dim 3 --check", 3)),
     ("draw --dim 3", |g| {
         g.run("draw p.csv --dim 3 -o d.svg");
         drawn(g, "d.svg")

@@ -29,7 +29,7 @@ impl Place {
 
     /// Runs the program in this folder.
     pub(crate) fn run(&self, line: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_delone"));
+        let mut command = Command::new(crate::PROGRAM);
         command.current_dir(self.0.path()).args(line.split_whitespace()).stdin(Stdio::null());
         command.output().expect("the program starts")
     }
@@ -40,7 +40,7 @@ impl Place {
         use std::os::unix::fs::{MetadataExt, PermissionsExt};
         // Where another user finds it.
         if !self.path("delone").exists() {
-            std::fs::copy(env!("CARGO_BIN_EXE_delone"), self.path("delone")).expect("room");
+            std::fs::copy(crate::PROGRAM, self.path("delone")).expect("room");
         }
         let is_root = self.path("").metadata().expect("there").uid() == 0;
         let mut command = Command::new(if is_root { "setpriv" } else { "sh" });

@@ -1,4 +1,4 @@
-//! `delone experiment scopes`: which triangles, edges and tetrahedra ever appear, by how many points are in their circles.
+//! `delone-lab experiment scopes`: which triangles, edges and tetrahedra ever appear, by how many points are in their circles.
 //!
 //! Source: Guibas, Knuth & Sharir 1992, §2.1 to §2.3, §4.2 and §4.3. On small sets all scopes are counted by exact decisions, what
 //! appears is simulated in random orders, and both stand beside the lemmas.

@@ -1,4 +1,4 @@
-//! `delone experiment tuning`: what a level of the Delaunay hierarchy costs, and which ratio between levels is best.
+//! `delone-lab experiment tuning`: what a level of the Delaunay hierarchy costs, and which ratio between levels is best.
 //!
 //! Source: Devillers 1998: bounds of the analysis (§3), phases (§4.1 to §4.3), operations and memory by the ratio (§4.4,
 //! Theorem 7), crossovers with walking and sampling (§4.5, Figures 3 and 4), the counterexample of the appendix (Figure 6).

@@ -1,11 +1,11 @@
 //! Points in Brownian motion (Devillers 2011, §5), and their triangulation kept up.
 
 use delone::{Bounds, Delaunay2, Moving2, Step2};
+use delone_cli::message::Failure;
 use delone_generators::{Random, in_ball};
 use delone_io::Error;
 
 use crate::args::AnimateArgs;
-use crate::message::Failure;
 
 /// Points that move at random inside of their box.
 pub(super) struct Film {

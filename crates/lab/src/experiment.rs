@@ -1,4 +1,4 @@
-//! `delone experiment`: the papers' experiments on this machine, with the papers' figures beside.
+//! `delone-lab experiment`: the papers' experiments on this machine, with the papers' figures beside.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use delone::Delaunay3;
+use delone_cli::files;
+use delone_cli::message::{Failure, answer};
+use delone_cli::progress::Phase;
+use delone_cli::room;
+use delone_cli::stats::Stats;
 use delone_experiments::{Error, Experiment, Options, Table, Watch};
 
 use crate::args::ExperimentArgs;
-use crate::files;
-use crate::message::{Failure, answer};
-use crate::progress::Phase;
-use crate::room;
-use crate::stats::Stats;
 
 pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     let experiment = args.experiment();
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         None if experiment.takes_model() => {
             return Err(Failure::usage(
                 "scan needs a file of points in space",
-                "as in: delone experiment scan model.ply",
+                "as in: delone-lab experiment scan model.ply",
             ));
         }
         None => Vec::new(),

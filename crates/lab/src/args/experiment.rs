@@ -4,18 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use delone_cli::args::count;
 use delone_experiments::{EXPERIMENTS, Experiment};
 
-use super::count;
-
 const EXPERIMENT_EXAMPLES: &str = "Examples:
-  delone experiment hierarchy --largest 50000
-  delone experiment jump-and-walk -o results
-  delone experiment history -o results
-  delone experiment radial --largest 1000000
-  delone experiment imprecise --largest 10000000 -o results
-  delone experiment scan model.ply
-  delone experiment growth --largest 10000000 -o results
+  delone-lab experiment hierarchy --largest 50000
+  delone-lab experiment jump-and-walk -o results
+  delone-lab experiment history -o results
+  delone-lab experiment radial --largest 1000000
+  delone-lab experiment imprecise --largest 10000000 -o results
+  delone-lab experiment scan model.ply
+  delone-lab experiment growth --largest 10000000 -o results
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. While an
 experiment runs, its rows are there in NAME.part.csv. Times are seconds on this machine and differ from

@@ -1,4 +1,4 @@
-//! `delone reduce`: the smallest set that still fails, as a test.
+//! `delone-lab reduce`: the smallest set that still fails, as a test.
 //!
 //! Delta debugging (Zeller & Hildebrandt, "Simplifying and isolating failure-inducing input", TSE 2002): drop
 //! ever smaller pieces as long as the rest still fails. O(n log n) trials when few points matter.
@@ -11,19 +11,20 @@ use std::process::{Command, Stdio};
 
 use delone::verify::verify2;
 use delone::{Algorithm2, Delaunay2};
+use delone_cli::args::GraphArgs;
+use delone_cli::message::{Failure, answer, note};
+use delone_cli::progress::Phase;
+use delone_cli::stats::Stats;
+use delone_cli::{constrained, files};
 use delone_io::{Format, TemporaryFolder};
 
-use crate::args::{GraphArgs, ReduceArgs};
-use crate::message::{Failure, answer, note};
-use crate::progress::Phase;
-use crate::stats::Stats;
-use crate::{constrained, files};
+use crate::args::ReduceArgs;
 
 type Points = [[f64; 2]];
 
 pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
-    let asked = GraphArgs { segments: args.segments.clone(), ..GraphArgs::default() };
-    if args.segments.is_some() || (args.against.is_none() && constrained::is_meant(&args.input, &asked)) {
+    let is_graph = || constrained::is_meant(&args.input, &GraphArgs::default());
+    if args.segments.is_some() || (args.against.is_none() && is_graph()) {
         return graph::run(args, quiet);
     }
     let stats_path = args.input.stats.as_deref();

@@ -1,4 +1,4 @@
-//! `delone animate`: points in motion, and what the algorithms do, as moving pictures.
+//! `delone-lab animate`: points in motion, and what the algorithms do, as moving pictures.
 
 mod build;
 mod locate;
@@ -8,13 +8,13 @@ mod scene;
 use std::path::PathBuf;
 
 use delone::Delaunay2;
+use delone_cli::files;
+use delone_cli::message::{Failure, note};
+use delone_cli::progress::Phase;
+use delone_cli::stats::Stats;
 use delone_io::{Error, Format, Mesh, picture, write_mesh};
 
 use crate::args::{AnimateArgs, Show};
-use crate::files;
-use crate::message::{Failure, note};
-use crate::progress::Phase;
-use crate::stats::Stats;
 
 /// The placeholder of the number of a picture in the name of an output.
 const NUMBER: &str = "{}";

@@ -1,17 +1,17 @@
-//! `delone replay`: a text file of operations, as it comes with a report of a bug.
+//! `delone-lab replay`: a text file of operations, as it comes with a report of a bug.
 
 use std::fmt::Write;
 use std::path::Path;
 
 use delone::{Coordinates, Error, Found, Inserted, VertexId, Work};
+use delone_cli::files;
+use delone_cli::message::{Failure, answer, tell};
+use delone_cli::progress::Phase;
+use delone_cli::room::{self, Room, positive};
+use delone_cli::stats::{Stats, work_done};
 use delone_io::{Mesh, picture, write_mesh};
 
 use crate::args::ReplayArgs;
-use crate::files;
-use crate::message::{Failure, answer, tell};
-use crate::progress::Phase;
-use crate::room::{self, Room, positive};
-use crate::stats::{Stats, work_done};
 
 /// Up to this number of vertices every operation is checked; beyond it, one in as many.
 const CHECKED: usize = 1000;
@@ -70,11 +70,12 @@ fn replay<R: Room>(
     {
         let _phase = Phase::start(quiet, "replaying");
         for (number, line) in (1..).zip(text.lines()) {
-            let operation = parse(line).map_err(|what| wrong(number, what, "see delone replay --help"))?;
+            let operation =
+                parse(line).map_err(|what| wrong(number, what, "see delone-lab replay --help"))?;
             let Some(operation) = operation else { continue };
             replayed
                 .perform(d, operation)
-                .map_err(|error| wrong(number, error.to_string(), "see delone replay --help"))?;
+                .map_err(|error| wrong(number, error.to_string(), "see delone-lab replay --help"))?;
             let count = d.vertex_count();
             if args.check && (count <= CHECKED || replayed.operations.is_multiple_of(CHECKED)) {
                 check(d).map_err(|what| wrong(number, what, BUG))?;

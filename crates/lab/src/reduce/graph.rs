@@ -4,14 +4,14 @@ use std::panic::{self, AssertUnwindSafe};
 
 use delone::verify::verify_constrained2;
 use delone::{Constrained2, Crossings};
+use delone_cli::files;
+use delone_cli::message::{Failure, answer, note};
+use delone_cli::progress::Phase;
+use delone_cli::stats::Stats;
 use delone_io::{Cloud, Contents, Direction, Graph};
 
 use super::{Points, from_least, reduce};
 use crate::args::ReduceArgs;
-use crate::files;
-use crate::message::{Failure, answer, note};
-use crate::progress::Phase;
-use crate::stats::Stats;
 
 type Segments = [[usize; 2]];
 
