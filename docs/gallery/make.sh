@@ -31,6 +31,7 @@ $delone voronoi "$work/seeds.csv" --areas "$work/sizes.csv" --box 0,0,1,1 -o $he
 
 # Meshes, coloured by the smallest angle of each triangle: a machine part, and lakes.
 $delone mesh $here/part.poly --min-angle 30 --max-area 12 --color angle -o $here/part.png --picture-size 800
+$delone draw $here/part.poly -o $here/part-before.png --size 800
 $delone mesh data/great_lakes.geojson --min-angle 30 --color angle -o $here/meshed-lakes.png --picture-size 960
 
 $delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
@@ -101,3 +102,16 @@ awk -F, 'NR == 1 && $1 + 0 != $1 { next } { printf "%.9f,%.9f,%.9f\n", $1, $2, 0
     "$work/wave.csv" > "$work/heights.csv"
 $delone -q dtm "$work/heights.csv" --cell 0.0025 -o $here/linear.png
 $delone -q dtm "$work/heights.csv" --cell 0.0025 --method natural -o $here/sibson.png
+
+# A roof of 70 points, and the same with its ridge as a breakline.
+$delone generate uniform -n 70 --seed 6 -o "$work/roof.csv"
+awk -F, 'NR == 1 && $1 + 0 != $1 { next } { d = $1 - 0.4 - 0.2 * $2; printf "%.9f,%.9f,%.9f\n", $1, $2, 0.15 - 0.35 * (d < 0 ? -d : d) }' \
+    "$work/roof.csv" > "$work/roof-heights.csv"
+cat > "$work/ridge.geojson" <<JSON
+{"type":"LineString","coordinates":[[0.4,0,0.15],[0.6,1,0.15]]}
+JSON
+$delone -q dtm "$work/roof-heights.csv" --cell 0.0025 -o $here/roof.png
+$delone -q dtm "$work/roof-heights.csv" --cell 0.0025 --breaklines "$work/ridge.geojson" -o $here/roof-ridge.png
+
+# Where pictures of terrain lie is of no use here.
+rm -f $here/*.pgw

@@ -81,7 +81,7 @@
 //! delone-predicates = { opt-level = 3 }
 //! ```
 //!
-//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`, `exactness`, `ghosts`.
+//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`, `exactness`, `ghosts`, `ideas`.
 
 // The code of the README and of the book is compiled and run with that of this documentation.
 #[cfg(doctest)]
