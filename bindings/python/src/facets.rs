@@ -209,5 +209,5 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// A sum of sums, which rounds less than one after the other.
 fn sum<T>(items: &[T], term: impl Fn(&T) -> f64) -> f64 {
-    items.chunks(128).map(|items| items.iter().map(&term).sum::<f64>()).sum()
+    items.chunks(128).map(|items| items.iter().map(&term).sum::<f64>()).fold(0.0, |sum, part| sum + part)
 }

@@ -362,7 +362,7 @@ impl Plan {
         }
         let domains = made.domains(fill)?;
         let inside = made.triangle_ids().filter(|&t| domains.is_inside(t));
-        let area: f64 = inside.map(|t| made.area(t)).sum();
+        let area: f64 = inside.map(|t| made.area(t)).fold(0.0, |sum, area| sum + area);
         if area == 0.0 {
             return Ok(());
         }

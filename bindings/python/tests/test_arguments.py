@@ -242,6 +242,6 @@ def test_arguments_that_are_no_points():
     square = np.array([[0.0, 0], [100, 0], [100, 100], [0, 100]])
     for right in (square, [square], square[None], square.tolist(), (square.tolist(),), square.astype(np.int8)):
         assert len(voronoi.cells(right)) == 12
-    for wrong in (None, POINTS, "x", delone.ConvexHull(POINTS)):
+    for wrong in (None, POINTS, "x", delone.RegularTriangulation(POINTS)):
         with pytest.raises(TypeError, match="is drawn"):
             delone.plot(wrong)

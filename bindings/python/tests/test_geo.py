@@ -142,3 +142,27 @@ def test_lines_are_points_and_segments():
     assert len(made.points) == len(points) and made.check() is None
     empty = delone.geo.lines(geopandas.GeoSeries([], dtype="geometry"))
     assert [len(part) for part in empty] == [0, 0, 0] and empty[1].shape == (0, 2)
+
+
+def test_polygons_stand_for_points_and_segments() -> None:
+    ring, hole = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0.2, 0.2), (0.4, 0.2), (0.3, 0.4)]
+    polygon = shapely.Polygon(ring, [hole])
+    column = geopandas.GeoSeries([polygon, None, shapely.box(1, 0, 2, 1)])
+    for given, area in [
+        (polygon, 0.98),
+        (column, 1.98),
+        (column.__geo_interface__, 1.98),
+        ([polygon, shapely.box(2, 0, 3, 1)], 1.98),
+    ]:
+        made = delone.mesh(given, min_angle=25, max_area=0.05)
+        assert made.area == pytest.approx(area) and made.report.smallest_angle >= 25
+        inside = delone.ConstrainedDelaunay(given)
+        assert shapely.area(shapely.polygons(inside.points[inside.simplices])).sum() == pytest.approx(area)
+    flat = delone.mesh([*ring, *hole], [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]], max_area=0.05)
+    # Shapely has holes the other way around, and the mesh is a function of the set.
+    assert np.array_equal(np.sort(flat.points, axis=0), np.sort(delone.mesh(polygon, max_area=0.05).points, axis=0))
+    assert delone.mesh(shapely.Polygon()).area == 0
+    with pytest.raises(TypeError, match="sides of their own"):
+        delone.mesh(polygon, [[0, 1]])
+    with pytest.raises(TypeError, match="polygon 1: a Point has no inside"):
+        delone.ConstrainedDelaunay([polygon, shapely.Point(0, 0)])

@@ -197,3 +197,15 @@ def test_cocircular_points_of_any_kind_share_a_vertex():
     grid = np.stack(np.meshgrid(np.arange(8.0), np.arange(8.0)), axis=-1).reshape(-1, 2) @ turn.T / 8 + np.cos(angle)
     grid = np.round(grid * 2**40) / 2**40
     assert len(delone.Voronoi(grid).vertices) == 49
+
+
+def test_hulls_and_shapes_are_drawn() -> None:
+    import matplotlib.pyplot as plt
+
+    random = np.random.default_rng(5)
+    for n in (2, 3):
+        points = random.random((40, n))
+        for kind in (delone.ConvexHull, delone.AlphaComplex):
+            axes = delone.plot(kind(points))
+            assert axes.has_data()
+            plt.close(axes.figure)

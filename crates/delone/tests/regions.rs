@@ -1,6 +1,6 @@
 //! Which rings make a region, and how they lie in each other, against the plainest definitions.
 
-use delone::{Delaunay2, Error, Region2, RegionProblem};
+use delone::{Delaunay2, Error, Polygons2, Region2, RegionProblem, VertexId};
 use delone_generators::Random;
 
 type Rings = Vec<Vec<[f64; 2]>>;
@@ -193,4 +193,19 @@ fn coordinates_of_all_sizes_are_compared_exactly() {
     let small = vec![[0.0, 0.0], [tiny, 0.0], [0.0, tiny]];
     let region = Region2::polygon(&[small, all]).expect("nested");
     assert_eq!(region.rings().next().map(|ring| ring[0]), Some([0.0, tiny]), "the hole is clockwise");
+}
+
+/// Not -0.0, which files would show.
+#[test]
+fn nothing_has_the_size_zero() {
+    let d = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [9.0, 9.0]]).expect("finite");
+    let region = Region2::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a box");
+    let cells = d.voronoi().clip(&region);
+    let far = VertexId::new(3);
+    assert_eq!(cells.rings(far).count(), 0);
+    for size in [cells.area(far), cells.perimeter(far), cells.second_moment(far, [0.0, 0.0])] {
+        assert_eq!(size.to_bits(), 0.0_f64.to_bits(), "{size:?}");
+    }
+    let nothing = Polygons2::default().triangulate::<Vec<[f64; 2]>>(&[]);
+    assert_eq!(nothing.expect("no polygon").area().to_bits(), 0.0_f64.to_bits());
 }

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._errors import restores
 from ._kept import Kept
-from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries, as_segments
+from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries
+from ._polygons import points_and_segments
 
 _FILLS = ("all", "even-odd", "nonzero", "seeds")
 _CROSSINGS = ("refuse", "split")
@@ -25,8 +26,9 @@ class ConstrainedDelaunay(Kept):
 
     Parameters
     ----------
-    points : array_like of floats, shape (n, 2)
-        The points. All must be finite. Of equal points the first is the vertex.
+    points : array_like of floats, shape (n, 2), or polygons
+        The points. All must be finite. Of equal points the first is the vertex. Or polygons, as shapely, geopandas and GeoJSON
+        have them: their corners are the points, and their sides the segments.
     segments : array_like of integers, shape (m, 2), optional
         The ends of segments, by indices of points. The row of a segment is its id.
     holes : array_like of floats, shape (k, 2), optional
@@ -36,7 +38,8 @@ class ConstrainedDelaunay(Kept):
     fill : str, optional
         Which triangles are inside. "all": those of the convex hull. "even-odd": those that an odd number of segments is
         around. "nonzero": those that segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what
-        no segments part from the outside, as Triangle has it. The last one with `holes` or `regions`, else "all".
+        no segments part from the outside, as Triangle has it. The last one with `holes` or `regions`; else "even-odd" for
+        polygons, "all" for points.
     crossings : str
         What happens where segments cross: "refuse" is a CrossingError, "split" makes points there.
     keep_concavities : bool
@@ -73,10 +76,10 @@ class ConstrainedDelaunay(Kept):
         keep_concavities: bool = False,
     ) -> None:
         """Triangulates points and segments."""
-        given = np.array(as_points(points, columns=2), order="C")
-        ends = np.array(as_segments(segments, len(given)))
+        given, ends, has_inside = points_and_segments(points, segments)
         seeded = holes is not None or regions is not None
-        self._fill = ("seeds" if seeded else "all") if fill is None else as_choice(fill, _FILLS, "fill")
+        plain = "seeds" if seeded else "even-odd" if has_inside else "all"
+        self._fill = plain if fill is None else as_choice(fill, _FILLS, "fill")
         self._keep = as_flag(keep_concavities, "keep_concavities")
         if self._fill != "seeds" and (seeded or self._keep):
             raise ValueError(f"holes, regions and keep_concavities are for fill='seeds', not {self._fill!r}")

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._errors import restores
-from ._points import as_choice, as_flag, as_index, as_numbers, as_points, as_segments
+from ._points import as_choice, as_flag, as_index, as_numbers, as_points
+from ._polygons import points_and_segments
 
 T = TypeVar("T")
 
@@ -98,8 +99,9 @@ def mesh(
 
     Parameters
     ----------
-    points : array_like of floats, shape (n, 2)
-        The points. All must be finite. Of equal points the first is the vertex.
+    points : array_like of floats, shape (n, 2), or polygons
+        The points. All must be finite. Of equal points the first is the vertex. Or polygons, as shapely, geopandas and GeoJSON
+        have them: their corners are the points, their sides the segments, and the mesh is inside.
     segments : array_like of integers, shape (m, 2), optional
         The ends of segments, by indices of points. They may pass through points, overlap and repeat each other.
     holes : array_like of floats, shape (k, 2), optional
@@ -155,8 +157,7 @@ def mesh(
     >>> made.triangles.shape[1], made.points[:7].tolist() == points
     (3, True)
     """
-    given = np.array(as_points(points, columns=2), order="C")
-    ends = np.array(as_segments(segments, len(given)))
+    given, ends, _ = points_and_segments(points, segments)
     seeded = holes is not None or regions is not None
     plain = "seeds" if seeded else "even-odd" if len(ends) else "all"
     filled = plain if fill is None else as_choice(fill, _FILLS, "fill")

@@ -8,32 +8,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from ._alpha import AlphaComplex
     from ._constrained import ConstrainedDelaunay
     from ._delaunay import Delaunay
+    from ._hull import ConvexHull
     from ._voronoi import Voronoi
 
 
-def plot(what: Delaunay | ConstrainedDelaunay | Voronoi, ax: Any = None, **style: Any) -> Any:
-    """Draws a triangulation, or Voronoi cells clipped to the box of the points, and returns the axes.
+def plot(what: Delaunay | ConstrainedDelaunay | Voronoi | ConvexHull | AlphaComplex, ax: Any = None, **style: Any) -> Any:
+    """Draws a triangulation, a hull, an alpha shape, or Voronoi cells clipped to the box of the points; returns the axes.
 
-    Of a constrained triangulation it draws what is inside, and constraints as thick lines. `style` goes to matplotlib: to
-    `triplot` in the plane, to `Line3DCollection` in space, to `PolyCollection` for cells.
+    Of a constrained triangulation it draws what is inside, and constraints as thick lines; of an alpha complex the shape at
+    `optimal_alpha()`. `style` goes to matplotlib: to `triplot` for triangles in the plane, to `PolyCollection` for cells and a
+    hull in the plane; in space to `Line3DCollection` for a triangulation, to `Poly3DCollection` for a hull and a shape.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection, PolyCollection
 
+    from ._alpha import AlphaComplex
     from ._constrained import ConstrainedDelaunay
     from ._delaunay import Delaunay
+    from ._hull import ConvexHull
     from ._voronoi import Voronoi
 
-    if not isinstance(what, (Delaunay, ConstrainedDelaunay, Voronoi)):
-        raise TypeError(f"a Delaunay, ConstrainedDelaunay or Voronoi is drawn, not {what!r}")
-    if isinstance(what, Delaunay) and what.ndim == 3:
-        from mpl_toolkits.mplot3d.art3d import Line3DCollection
+    if not isinstance(what, (Delaunay, ConstrainedDelaunay, Voronoi, ConvexHull, AlphaComplex)):
+        raise TypeError(f"a Delaunay, ConstrainedDelaunay, Voronoi, ConvexHull or AlphaComplex is drawn, not {what!r}")
+    if what.ndim == 3 and not isinstance(what, Voronoi):
+        from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
         ax = ax or plt.figure().add_subplot(projection="3d")
-        ax.add_collection(Line3DCollection(what.points[what.edges], **{"linewidths": 0.5, **style}))
-        low, high = what.min_bound, what.max_bound
+        if isinstance(what, Delaunay):
+            ax.add_collection(Line3DCollection(what.points[what.edges], **{"linewidths": 0.5, **style}))
+        else:
+            faces = what.outline(what.optimal_alpha()) if isinstance(what, AlphaComplex) else what.simplices
+            usual = {"facecolors": "lightsteelblue", "edgecolors": "tab:blue", "linewidths": 0.3}
+            ax.add_collection(Poly3DCollection(what.points[faces], **{**usual, **style}))
+        low, high = what.points.min(axis=0), what.points.max(axis=0)
         ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
         return ax
     ax = ax or plt.gca()
@@ -42,6 +52,14 @@ def plot(what: Delaunay | ConstrainedDelaunay | Voronoi, ax: Any = None, **style
             ax.triplot(what.points[:, 0], what.points[:, 1], what.simplices, **{"linewidth": 0.5, **style})
         elif isinstance(what, Delaunay):
             ax.plot(*what.points[what.edges].reshape(-1, 2).T, **style)
+    if isinstance(what, AlphaComplex):
+        triangles = what.complex(what.optimal_alpha())[2]
+        if len(triangles):
+            ax.triplot(what.points[:, 0], what.points[:, 1], triangles, **{"linewidth": 0.5, **style})
+    if isinstance(what, ConvexHull):
+        usual = {"facecolors": "none", "edgecolors": "tab:blue"}
+        ax.add_collection(PolyCollection([what.points[what.vertices]], **{**usual, **style}))
+        ax.plot(what.points[:, 0], what.points[:, 1], "k.", markersize=3)
     if isinstance(what, ConstrainedDelaunay):
         ax.add_collection(LineCollection(list(what.points[what.constraints]), colors="black", linewidths=1.5))
         ax.autoscale()

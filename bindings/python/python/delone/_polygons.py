@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _delone
 from ._geometries import as_mapping, box_of, column_of, geometry_type
-from ._points import as_choice, as_flag, as_points
+from ._points import as_choice, as_flag, as_points, as_segments
 
 #: Rings of a polygon, as they are given.
 _Rings = list[Any]
@@ -206,8 +206,61 @@ def rings_of_region(region: Any) -> _Rings | None:
     if mapping is None:
         return None
     if mapping.get("type") == "FeatureCollection":
-        return [ring for member in _members(mapping) for ring in _rings_of(member, "region")]
+        # A row without a polygon, as in a column of geometries.
+        members = [
+            one for one in _members(mapping) if not (isinstance(one, Mapping) and "geometry" in one and one["geometry"] is None)
+        ]
+        return [ring for member in members for ring in _rings_of(member, "region")]
     return _rings_of_mapping(mapping, "region")
+
+
+_INSIDES = ("Polygon", "MultiPolygon")
+
+
+def _has_inside(given: Any) -> bool:
+    """Whether this is a polygon, or begins with one."""
+    kind = geometry_type()
+    given = column_of(given)
+    if kind is not None and isinstance(given, kind):
+        return given.geom_type in _INSIDES
+    if isinstance(given, (list, tuple)) or hasattr(given, "geom_type"):
+        first = next((one for one in given if one is not None), None)
+        return kind is not None and isinstance(first, kind) and first.geom_type in _INSIDES
+    mapping = as_mapping(given)
+    if mapping is None:
+        return False
+    for member in ("features", "geometries"):
+        members = mapping.get(member)
+        if isinstance(members, (list, tuple)):
+            return bool(members) and _has_inside(members[0])
+    if mapping.get("type") == "Feature":
+        return _has_inside(mapping.get("geometry"))
+    return mapping.get("type") in _INSIDES
+
+
+def points_and_segments(given: Any, segments: Any) -> tuple[NDArray[np.float64], NDArray[np.int64], bool]:
+    """Points and the segments between them, as arrays of their own; of polygons the corners and sides, and that they are such."""
+    if not _has_inside(given):
+        points = np.array(as_points(given, columns=2), order="C")
+        return points, np.array(as_segments(segments, len(points))), False
+    if segments is not None:
+        raise TypeError("segments are for points; polygons have sides of their own")
+    if isinstance(given, (list, tuple)):
+        rings = [ring for k, one in enumerate(given) if one is not None for ring in _rings_of(one, f"polygon {k}")]
+    else:
+        rings = rings_of_region(given) or []
+    corners: list[NDArray[np.float64]] = []
+    sides: list[NDArray[np.int64]] = []
+    count = 0
+    for k, ring in enumerate(rings):
+        row = as_points(_plane(ring), f"ring {k}", 2)
+        row = row[:-1] if len(row) > 1 and (row[0] == row[-1]).all() else row
+        own = np.arange(count, count + len(row))
+        corners.append(row)
+        sides.append(np.column_stack([own, np.roll(own, -1)]))
+        count += len(row)
+    points = np.concatenate([np.empty((0, 2)), *corners])
+    return points, np.concatenate([np.empty((0, 2), dtype=np.int64), *sides]), True
 
 
 def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:

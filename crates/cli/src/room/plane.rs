@@ -84,7 +84,7 @@ impl Room for Delaunay2 {
     }
 
     fn describe(&self, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
-        let area: f64 = self.triangle_ids().map(|t| self.area(t)).sum();
+        let area: f64 = self.triangle_ids().map(|t| self.area(t)).fold(0.0, |sum, area| sum + area);
         let density = self.points().len() as f64 / area;
         line("area of the hull", format!("{area:.6}, {density:.6} points on a unit"));
         stats.set("area", area);

@@ -52,7 +52,8 @@ impl PolygonTriangles2 {
     /// The sum of the areas, rounded. In coordinate units squared.
     pub fn area(&self) -> f64 {
         let twice = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        self.triangles.iter().map(|t| twice(t.map(|i| self.points[i as usize])) / 2.0).sum()
+        let areas = self.triangles.iter().map(|t| twice(t.map(|i| self.points[i as usize])) / 2.0);
+        areas.fold(0.0, |sum, area| sum + area)
     }
 }
 

@@ -11,7 +11,9 @@ const UP: f64 = f64::from_bits((1023 + 600) << 52);
 pub(in crate::plane) fn area<R: Iterator<Item = [f64; 2]> + Clone>(
     rings: impl Iterator<Item = R> + Clone,
 ) -> f64 {
-    let twice = |scale: f64| rings.clone().map(|ring| twice_area(from_least(ring), scale)).sum::<f64>();
+    // Not `sum`, which is -0.0 of nothing.
+    let add = |sum: f64, area: f64| sum + area;
+    let twice = |scale: f64| rings.clone().map(|ring| twice_area(from_least(ring), scale)).fold(0.0, add);
     let plain = twice(1.0) / 2.0;
     // An overflow on the way is infinite or NaN at the end.
     if plain.is_finite() { plain } else { twice(DOWN) * UP * (UP / 2.0) }

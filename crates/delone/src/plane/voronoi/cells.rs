@@ -94,7 +94,8 @@ impl<'a> Cell2<'a> {
 
     /// The length of the border, holes included, in coordinate units.
     pub fn perimeter(self) -> f64 {
-        self.rings().flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
+        let lengths = self.rings().flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1]));
+        lengths.fold(0.0, |sum, length| sum + length)
     }
 
     /// The integral over the cell of the squared distance from a point: with the site, what it costs to carry the cell there. O(k)
