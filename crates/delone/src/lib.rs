@@ -103,6 +103,7 @@ mod book {
         Meshing: "docs/howto/meshing.md",
         Moving: "docs/howto/moving.md",
         Constraints: "docs/howto/constraints.md",
+        ComingFromRust: "docs/howto/coming-from-rust.md",
     }
 }
 
