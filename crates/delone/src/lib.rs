@@ -104,6 +104,7 @@ mod book {
         Moving: "docs/howto/moving.md",
         Constraints: "docs/howto/constraints.md",
         ComingFromRust: "docs/howto/coming-from-rust.md",
+        ComingFromCpp: "docs/howto/coming-from-cpp.md",
     }
 }
 
