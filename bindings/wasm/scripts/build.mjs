@@ -5,7 +5,7 @@
 //     node scripts/build.mjs --debug    with all assertions, not made smaller: for tests
 //     node scripts/build.mjs --check    says whether dist/ is there, and builds nothing
 
-import {spawn} from "node:child_process";
+import {spawn, spawnSync} from "node:child_process";
 import {once} from "node:events";
 import {copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync} from "node:fs";
 import {fileURLToPath} from "node:url";
@@ -26,9 +26,20 @@ if (process.argv.includes("--check")) {
   process.exit(0);
 }
 
+const target = "wasm32-unknown-unknown";
+const libraries = spawnSync("rustc", ["--print", "target-libdir", "--target", target], {cwd: root, encoding: "utf8"});
+if (libraries.error) {
+  console.error("error: there is no rustc to build the modules with\nhelp: install Rust, https://rustup.rs");
+  process.exit(1);
+}
+if (!existsSync(libraries.stdout.trim())) {
+  console.error(`error: Rust has no standard library for ${target}\nhelp: rustup target add ${target}`);
+  process.exit(1);
+}
+
 /** Builds a module with cargo in a folder, and gives its bytes. */
 async function cargo(folder, profile, features) {
-  const args = ["rustc", "--lib", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
+  const args = ["rustc", "--lib", "--target", target, "--message-format", "json-render-diagnostics"];
   args.push("--profile", isDebug ? "checked" : profile);
   if (features) args.push("--features", features);
   const child = spawn("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"]});

@@ -3,12 +3,12 @@
 use super::along::Along;
 use crate::error::BorderProblem;
 
-/// The corners of open triangles and of the hull, with names for the vertices, and the open triangles. See [`super::join`].
+/// The corners of open triangles and of the hull, with names for the vertices, and the open triangles. See [`super::join()`].
 ///
 /// As bytes it is 24 for a point, 12 for a triangle and 32 more; [`Self::to_bytes`].
 pub type Border = BorderOf<2, 3>;
 
-/// The border of a tile in space: the open tetrahedra, their corners and those of the hull. See [`super::join3`].
+/// The border of a tile in space: the open tetrahedra, their corners and those of the hull. See [`super::join3()`].
 ///
 /// As bytes it is 32 for a point, 16 for a tetrahedron and 32 more.
 pub type Border3 = BorderOf<3, 4>;
