@@ -113,5 +113,10 @@ JSON
 $delone -q dtm "$work/roof-heights.csv" --cell 0.0025 -o $here/roof.png
 $delone -q dtm "$work/roof-heights.csv" --cell 0.0025 --breaklines "$work/ridge.geojson" -o $here/roof-ridge.png
 
+# Thiessen polygons: the commands of that page.
+program=$(realpath "$delone") page=$PWD/docs/howto/thiessen.md
+(cd "$work" && delone() { "$program" "$@"; } && eval "$(sed -n '/^```sh$/,/^```$/{/^```/!p}' "$page")")
+cp "$work/areas.png" $here/thiessen.png
+
 # Where pictures of terrain lie is of no use here.
 rm -f $here/*.pgw
