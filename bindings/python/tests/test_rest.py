@@ -209,3 +209,6 @@ def test_hulls_and_shapes_are_drawn() -> None:
             axes = delone.plot(kind(points))
             assert axes.has_data()
             plt.close(axes.figure)
+    empty = delone.plot(delone.Delaunay(np.empty((0, 3))))
+    assert empty.name == "3d"
+    plt.close(empty.figure)

@@ -43,8 +43,9 @@ def plot(what: Delaunay | ConstrainedDelaunay | Voronoi | ConvexHull | AlphaComp
             faces = what.outline(what.optimal_alpha()) if isinstance(what, AlphaComplex) else what.simplices
             usual = {"facecolors": "lightsteelblue", "edgecolors": "tab:blue", "linewidths": 0.3}
             ax.add_collection(Poly3DCollection(what.points[faces], **{**usual, **style}))
-        low, high = what.points.min(axis=0), what.points.max(axis=0)
-        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+        if len(what.points):
+            low, high = what.points.min(axis=0), what.points.max(axis=0)
+            ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
         return ax
     ax = ax or plt.gca()
     if isinstance(what, (Delaunay, ConstrainedDelaunay)):

@@ -249,18 +249,16 @@ def points_and_segments(given: Any, segments: Any) -> tuple[NDArray[np.float64],
         rings = [ring for k, one in enumerate(given) if one is not None for ring in _rings_of(one, f"polygon {k}")]
     else:
         rings = rings_of_region(given) or []
-    corners: list[NDArray[np.float64]] = []
-    sides: list[NDArray[np.int64]] = []
-    count = 0
-    for k, ring in enumerate(rings):
-        row = as_points(_plane(ring), f"ring {k}", 2)
-        row = row[:-1] if len(row) > 1 and (row[0] == row[-1]).all() else row
-        own = np.arange(count, count + len(row))
-        corners.append(row)
-        sides.append(np.column_stack([own, np.roll(own, -1)]))
-        count += len(row)
-    points = np.concatenate([np.empty((0, 2)), *corners])
-    return points, np.concatenate([np.empty((0, 2), dtype=np.int64), *sides]), True
+    corners, starts, _ = _flat([rings], ["polygons"])
+    # The last corner of a closed ring is the first one again.
+    first, last = starts[:-1], starts[1:] - 1
+    is_closed = (last > first) & (corners[first] == corners[np.maximum(last, first)]).all(axis=1)
+    lengths = np.diff(starts) - is_closed
+    starts = _offsets(lengths)
+    sides = np.arange(starts[-1])
+    following = sides + 1
+    following[starts[1:][lengths > 0] - 1] = starts[:-1][lengths > 0]
+    return np.delete(corners, last[is_closed], axis=0), np.column_stack([sides, following]), True
 
 
 def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:

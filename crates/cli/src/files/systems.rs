@@ -7,10 +7,10 @@ use delone_io::{Crs, Format, Said};
 
 use crate::message::{Failure, lost, mislead};
 
-/// Systems and outputs of the command. Readers find the systems, writers name the outputs, and at the end both are compared.
-static COMMAND: Mutex<Command> = Mutex::new(Command { said: None, known: None, outputs: Vec::new() });
+/// Systems and outputs of this run. Readers find the systems, writers name the outputs, and at the end both are compared.
+static RUN: Mutex<Run> = Mutex::new(Run { said: None, known: None, outputs: Vec::new() });
 
-struct Command {
+struct Run {
     /// The system that the command line says all inputs have.
     said: Option<Crs>,
     /// The system of the input that was read first, or of a file beside it until then.
@@ -18,13 +18,13 @@ struct Command {
     outputs: Vec<(PathBuf, Format)>,
 }
 
-fn command() -> MutexGuard<'static, Command> {
-    COMMAND.lock().unwrap_or_else(PoisonError::into_inner)
+fn run() -> MutexGuard<'static, Run> {
+    RUN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Inputs have this system from now on, whatever their files tell; files beside them have it if they tell none.
 pub(crate) fn say_system(crs: Crs) {
-    command().said.get_or_insert(crs);
+    run().said.get_or_insert(crs);
 }
 
 /// Whether a file is the input of a command, or beside it: a clip, queries, breaklines.
@@ -67,33 +67,33 @@ pub(super) fn find_system(
 ) -> Result<(), Failure> {
     let losses = delone_io::heed_sides(crs, path);
     losses.iter().for_each(|loss| lost(quiet, loss));
-    let mut command = command();
-    if let Some(said) = command.said.as_ref().filter(|_| role == Role::Input || crs.is_none()) {
+    let mut run = run();
+    if let Some(said) = run.said.as_ref().filter(|_| role == Role::Input || crs.is_none()) {
         *crs = Some(said.clone());
     }
     let Some(crs) = crs else { return Ok(()) };
     let own = Known { crs: crs.clone(), path: path.to_owned(), role };
-    match &command.known {
+    match &run.known {
         Some(first) if !first.crs.agrees(&own.crs) => return Err(own.differs_from(first)),
         Some(first) if first.role == Role::Input || role == Role::Beside => {}
-        _ => command.known = Some(own),
+        _ => run.known = Some(own),
     }
     Ok(())
 }
 
 /// Keeps the outputs of the command.
 pub(super) fn expect(outputs: &[(PathBuf, Format)]) {
-    command().outputs.extend_from_slice(outputs);
+    run().outputs.extend_from_slice(outputs);
 }
 
 /// The outputs of the command.
 pub(super) fn outputs() -> Vec<(PathBuf, Format)> {
-    command().outputs.clone()
+    run().outputs.clone()
 }
 
 /// Says which outputs do not tell their system, or not to all readers.
 pub(super) fn tell(quiet: bool) {
-    let Some(Known { crs, .. }) = command().known.take() else { return };
+    let Some(Known { crs, .. }) = run().known.take() else { return };
     let outputs = outputs();
     let names = |said: Said| {
         let those = outputs.iter().filter(|(_, format)| format.says(&crs) == said);
