@@ -183,6 +183,24 @@ pub enum Error {
         /// The fault there.
         problem: RegionProblem,
     },
+    /// Axes that are none of a lattice.
+    #[error("axis {axis} of the lattice, counted from 0, {problem}")]
+    Lattice {
+        /// The axis, from 0.
+        axis: usize,
+        /// Its fault.
+        problem: LatticeProblem,
+    },
+    /// A point that is more periods away from the origin than can be counted.
+    #[error("point {index} has the {} coordinate {value}, which is too many periods away", ["x", "y", "z"][*.axis])]
+    FarAway {
+        /// The index of the point in the input.
+        index: usize,
+        /// 0 for x, 1 for y, 2 for z.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
     /// The bound that a mesh is to keep somewhere is NaN, zero or negative.
     #[error("the size wanted at ({}, {}) is {value}; it must be positive", .at[0], .at[1])]
     Size {
@@ -328,4 +346,25 @@ pub enum RegionProblem {
     /// A side crosses, touches or overlaps another one, or rings cross at a corner of both.
     #[error("the side from here crosses or touches another one")]
     Crossing,
+}
+
+/// A fault of an axis of a lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LatticeProblem {
+    /// A side of a box that is zero, negative or not finite.
+    #[error("has no positive, finite length")]
+    Side,
+    /// A coordinate is NaN or infinite.
+    #[error("is not finite")]
+    NotFinite,
+    /// Squares of the lengths would leave the range of numbers.
+    #[error("is shorter than 1e-100 or longer than 1e100")]
+    Range,
+    /// The axes span less than they should.
+    #[error("is zero or, but for rounding, a sum of multiples of the others")]
+    Dependent,
+    /// The axes are a left hand's.
+    #[error("is on the wrong side: the axes are left-handed; exchange two of them")]
+    LeftHanded,
 }

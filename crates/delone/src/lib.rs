@@ -111,6 +111,7 @@ mod book {
 mod alpha;
 mod around;
 mod closest;
+mod decimal;
 mod duplicates;
 mod error;
 mod graphs;
@@ -124,6 +125,7 @@ mod mesh;
 mod neighbors;
 mod order;
 mod parallel;
+mod periodic;
 mod plane;
 mod points;
 mod powers;
@@ -142,7 +144,8 @@ mod weight;
 
 pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, Manifold3, OutlinePart};
 pub use around::{Around, Surround};
-pub use error::{BorderProblem, Error, RegionProblem};
+pub use decimal::DecimalGrid;
+pub use error::{BorderProblem, Error, LatticeProblem, RegionProblem};
 pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{
@@ -155,6 +158,10 @@ pub use mesh::{Dimension, Mesh2, Mesh3, MeshFlaw2, MeshFlaw3};
 pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
 pub use parallel::share_work_from;
+pub use periodic::{
+    Grid, Image, Lattice, Lattice2, Lattice3, Periodic, Periodic2, Periodic3, PeriodicKind, PeriodicRegular2,
+    PeriodicRegular3,
+};
 pub use plane::check::Flaw2;
 pub use plane::{
     Algorithm2, Cell2, Cells2, Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings,

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     &["ids", "prefetch", "memory", "sorting", "sets", "powers", "closest", "tally", "verdict"],
     &["error", "parallel", "vertex_map", "weight", "duplicates", "hidden", "regular"],
-    &["points"],
+    &["points", "decimal"],
     &["order"],
     &["mesh"],
     &["locate", "neighbors"],
@@ -18,12 +18,12 @@ const FLOORS: &[&[&str]] = &[
     &["alpha", "around", "joining"],
     &["hull"],
     &["plane", "space"],
-    &["tiles", "surface"],
+    &["tiles", "surface", "periodic"],
 ];
 
 /// Rooms that decide by the predicates; `around` keeps what they saw, for who decides.
-const DECIDE: [&str; 9] =
-    ["neighbors", "graphs", "hull", "alpha", "around", "plane", "space", "tiles", "surface"];
+const DECIDE: [&str; 10] =
+    ["neighbors", "graphs", "hull", "alpha", "around", "plane", "space", "tiles", "surface", "periodic"];
 
 /// The files that write the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

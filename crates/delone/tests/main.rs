@@ -23,6 +23,7 @@ mod metamorphic;
 mod neighbors;
 mod orders;
 mod papers;
+mod periodic;
 mod positions;
 mod power;
 mod properties;
