@@ -13,6 +13,7 @@
 //! - [`alpha`]: alpha complexes of few sites, with sizes as fractions;
 //! - [`graphs`]: proximity graphs, by trying all pairs against all points;
 //! - [`orders`]: Voronoi diagrams of order k, by trying all triples;
+//! - [`solid`]: where planes meet, as fractions, and polyhedra by all triples of planes;
 //! - [`power`]: regular triangulations of few sites with weights;
 //! - [`share`], [`some_of`] and [`all_cases`]: how many cases of a test are judged;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
@@ -32,5 +33,6 @@ mod quick;
 #[cfg(test)]
 mod samples;
 mod share;
+pub mod solid;
 
 pub use share::{all_cases, is_due, share, some_of};

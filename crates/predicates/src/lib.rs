@@ -55,6 +55,7 @@ mod plane;
 mod power;
 mod side_in_plane;
 mod sign;
+mod solid;
 mod sphere_center;
 mod sphere_pencil;
 #[cfg(test)]
@@ -91,6 +92,7 @@ pub use power::{
 };
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
+pub use solid::{Corner3, HalfSpace, HalfSpaces};
 pub use sphere_center::{circumcenter3, power_center3};
 pub use sphere_pencil::{Ball, SpherePencil};
 pub use within::{stays_within, stays_within3};

@@ -8,5 +8,6 @@ mod oracle;
 mod orthosphere;
 mod power;
 mod small_floats;
+mod solid;
 mod within;
 mod within3;
