@@ -201,6 +201,9 @@ pub enum Error {
         /// The coordinate.
         value: f64,
     },
+    /// A region of space that has no inside.
+    #[error("the region has no volume inside")]
+    NoVolume,
     /// The bound that a mesh is to keep somewhere is NaN, zero or negative.
     #[error("the size wanted at ({}, {}) is {value}; it must be positive", .at[0], .at[1])]
     Size {

@@ -174,7 +174,10 @@ pub use plane::{
 pub use points::{Bounds, Position2, Position3};
 pub use regular::{RegularFlaw, Reweighed};
 pub use space::check::Flaw3;
-pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};
+pub use space::{
+    Across3, Algorithm3, Cell3, Cells3, Delaunay3, Face3, Hints3, Location3, Moving3, Power3, Region3,
+    Regular3, Step3, Voronoi3,
+};
 pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Regular, Triangulation};
 pub use verdict::Verdict;

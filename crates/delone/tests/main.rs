@@ -4,6 +4,7 @@ mod alpha;
 mod architecture;
 mod borders;
 mod cell_borders;
+mod cells3;
 mod changes;
 mod conformance;
 mod constrained;

@@ -212,13 +212,19 @@ impl Fraction {
         Self { numerator: numerator / &p, denominator: denominator / p }
     }
 
-    /// About the number, where neither part is beyond 2^1000.
+    /// About the number.
     pub fn value(&self) -> f64 {
-        // The quotient to 80 bits.
-        let shift = 80 + self.denominator.bits();
-        let quotient: BigInt = (&self.numerator << shift) / &self.denominator;
-        let text = quotient.to_string();
-        text.parse::<f64>().expect("digits") / 2f64.powi(i32::try_from(shift).expect("few bits"))
+        // The quotient to some 60 bits.
+        let bits = |x: &BigInt| i64::try_from(x.bits()).expect("few bits");
+        let shift = 60 + bits(&self.denominator) - bits(&self.numerator);
+        let quotient: BigInt = if shift > 0 {
+            (&self.numerator << shift) / &self.denominator
+        } else {
+            &self.numerator / (&self.denominator << -shift)
+        };
+        let half = i32::try_from(-shift / 2).expect("few bits");
+        let rest = i32::try_from(-shift).expect("few bits") - half;
+        quotient.to_string().parse::<f64>().expect("digits") * 2f64.powi(half) * 2f64.powi(rest)
     }
 }
 

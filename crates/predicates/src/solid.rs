@@ -112,11 +112,6 @@ impl HalfSpaces {
         self.all.pop();
     }
 
-    /// The half-space with an index.
-    pub fn get(&self, index: usize) -> HalfSpace {
-        self.all[index].0
-    }
-
     /// Where three planes meet; `None` if they do not meet in one point. O(1).
     pub fn corner(&self, planes: [usize; 3]) -> Option<Corner3> {
         let [e, f, g] = planes.map(|i| &self.all[i].1);
@@ -189,6 +184,28 @@ impl Corner3 {
 }
 
 impl HalfSpace {
+    /// Whether a place is strictly inside, by its correctly rounded coordinates; false where these cannot tell.
+    ///
+    /// ```
+    /// use delone_predicates::HalfSpace;
+    /// let half_space = HalfSpace::Through([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0]);
+    /// assert!(half_space.surely_holds([0.5, 0.25, 0.3]) && !half_space.surely_holds([0.5, 0.25, 0.25]));
+    /// ```
+    pub fn surely_holds(&self, rounded: Point3) -> bool {
+        // Rounding keeps order: what is rounded below a number is below it.
+        match *self {
+            Self::Above(axis, at) => rounded[axis] > at,
+            Self::Below(axis, at) => rounded[axis] < at,
+            Self::Bisector(from, _) | Self::Radical((from, _), _) | Self::Through(from, ..) => {
+                let Equation { n, c, sizes, size } = self.equation(from);
+                let seen = [0, 1, 2].map(|k| rounded[k] - from[k]);
+                let moved = dot(sizes, rounded.map(|x| 2.0 * U * x.abs()));
+                let permanent = dot(sizes, seen.map(f64::abs)) + size;
+                dot(n, seen) - c < -(BOUND * permanent + moved + FLOOR)
+            }
+        }
+    }
+
     /// The points that it is given by, a number as a point with that in all coordinates.
     fn points(&self) -> [Point3; 3] {
         match *self {

@@ -5,6 +5,9 @@ use delone_oracle::share;
 use delone_oracle::solid::{self, HalfSpace as Judged};
 use delone_predicates::{HalfSpace, HalfSpaces, Point3, Sign, are_collinear3};
 
+/// Coordinates of one kind.
+type Family = (&'static str, fn(&mut Random) -> f64);
+
 /// A half-space from points, of which some may be equal.
 fn made(random: &mut Random, p: &[Point3; 3], own: Point3) -> Option<(HalfSpace, Judged)> {
     let [a, b, c] = *p;
@@ -39,7 +42,6 @@ fn fours(seed: u64, n: usize, mut judge: impl FnMut(&str, Point3, [HalfSpace; 4]
         all(kind.name(), &kind.points(n, seed));
     }
     let mut numbers = Random::new(seed + 1);
-    type Family = (&'static str, fn(&mut Random) -> f64);
     let families: [Family; 6] = [
         ("small integers", |r| r.below(4) as f64),
         ("tenths", |r| r.below(20) as f64 * 0.1),

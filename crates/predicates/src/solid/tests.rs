@@ -111,7 +111,7 @@ fn bisectors_seen_from_both_sites_divide() {
         let HalfSpace::Bisector(p, q) = some_plane(&mut random) else { continue };
         let [there, back] = [planes.push(HalfSpace::Bisector(p, q)), planes.push(HalfSpace::Bisector(q, p))];
         let is_own = three.iter().any(|&i| {
-            let of = |p, q| planes.get(i) == HalfSpace::Bisector(p, q);
+            let of = |p, q| planes.all[i].0 == HalfSpace::Bisector(p, q);
             of(p, q) || of(q, p)
         });
         assert!(is_own || planes.holds(&corner, there) != planes.holds(&corner, back));

@@ -1,7 +1,7 @@
 //! Walks over all of a mesh of space, around its vertices and around its edges.
 
 use super::{FACETS, Mesh3};
-use crate::ids::{FacetId, TetrahedronId, VertexId};
+use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
 
 impl Mesh3 {
     /// The finite tetrahedra; none if the points span less than space.
@@ -74,16 +74,27 @@ impl Mesh3 {
     #[doc(alias("circulator", "incident_cells", "ring"))]
     pub fn around_edge(&self, t: TetrahedronId, [i, j]: [usize; 2]) -> AroundEdge<'_> {
         assert!(i != j && i < 4 && j < 4, "an edge is between two different corners of 0 to 3");
-        // Seen from its corner, a facet has its corners counter-clockwise: the corner before the end is left behind.
-        let facet = FACETS[i];
-        let at = facet.iter().position(|&corner| corner == j).expect("a corner of the facet across from i");
-        AroundEdge {
-            mesh: self,
-            first: t,
-            next: Some(t.facet(facet[(at + 2) % 3])),
-            edge: [i, j].map(|k| self.corners(t)[k]),
-        }
+        let edge = [i, j].map(|k| self.cells[t.index()].corners[k]);
+        AroundEdge { mesh: self, first: t, next: Some(first_around(t, [i, j])), edge }
     }
+
+    /// The facet by which a turn around an edge leaves the tetrahedron that it entered by a facet: across from the corner that is neither on the edge
+    /// nor new there.
+    #[inline]
+    pub(crate) fn next_around(&self, entered: FacetId, edge: [Place; 2]) -> FacetId {
+        let (t, corners) = (entered.tetrahedron(), &self.cells[entered.tetrahedron().index()].corners);
+        let left = (0..4).find(|&k| k != entered.corner() && !edge.contains(&corners[k]));
+        t.facet(left.unwrap_or_default())
+    }
+}
+
+/// The facet by which a turn around the edge from corner i to corner j leaves a tetrahedron, counter-clockwise for who looks from j to i.
+#[inline]
+pub(crate) fn first_around(t: TetrahedronId, [i, j]: [usize; 2]) -> FacetId {
+    // Seen from its corner, a facet has its corners counter-clockwise: the corner before the end is left behind.
+    let facet = FACETS[i];
+    let at = (0..3).find(|&k| facet[k] == j).unwrap_or_default();
+    t.facet(facet[(at + 2) % 3])
 }
 
 /// The tetrahedra around an edge.
@@ -93,7 +104,7 @@ pub struct AroundEdge<'a> {
     first: TetrahedronId,
     /// The facet by which the next tetrahedron is left.
     next: Option<FacetId>,
-    edge: [VertexId; 2],
+    edge: [Place; 2],
 }
 
 impl Iterator for AroundEdge<'_> {
@@ -102,11 +113,9 @@ impl Iterator for AroundEdge<'_> {
     fn next(&mut self) -> Option<TetrahedronId> {
         let f = self.next?;
         let t = f.tetrahedron();
-        let across = self.mesh.twin(f);
-        let corners = self.mesh.corners(across.tetrahedron());
-        // The corner of the next one that is neither on the edge nor new there.
-        let left = (0..4).find(|&k| k != across.corner() && !self.edge.contains(&corners[k]));
-        self.next = left.map(|k| across.tetrahedron().facet(k)).filter(|f| f.tetrahedron() != self.first);
+        let entered = self.mesh.twin(f);
+        let is_last = entered.tetrahedron() == self.first;
+        self.next = (!is_last).then(|| self.mesh.next_around(entered, self.edge));
         Some(t)
     }
 }

@@ -16,6 +16,7 @@ pub(crate) mod surgery;
 
 pub use check::MeshFlaw3;
 pub use iterate::AroundEdge;
+pub(crate) use iterate::first_around;
 
 use std::collections::BTreeSet;
 

@@ -11,7 +11,10 @@ pub(super) mod build;
 mod change;
 mod check;
 mod nearest;
+mod power;
 mod triangulation;
+
+pub use power::Power3;
 
 use std::sync::OnceLock;
 

@@ -1,0 +1,201 @@
+//! All cells of a diagram, clipped to a region.
+//!
+//! Most cells lie inside of the region, and their corners are centers of spheres, each computed once. They are read off (`read.rs`). The
+//! others are cut out of the region by the half-spaces of all neighbors, corner by corner (`region/solid.rs`): that needs no rays and no
+//! corners far away. A corner of four sites is the center of their tetrahedron there too, so cells that are cut share their corners with those
+//! that are not.
+//!
+//! Cost: O(n) for the cells inside, O(d k) for a cell with d neighbors, walls counted, and k corners. On all threads: each makes the
+//! cells of some places, and what it makes does not depend on who else works.
+
+use super::Voronoi3;
+use super::build::{Part, joined};
+use super::cells::{Across3, Cell3, Cells3};
+use super::centers::{Cellular, Centers};
+use super::read::Reader;
+use crate::ids::{Place, TetrahedronId, VertexId};
+use crate::parallel;
+use crate::space::layer::Layer;
+use crate::space::region::Region3;
+use crate::space::region::solid::Solid;
+
+impl Voronoi3<'_> {
+    /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region. On all threads of rayon's pool
+    /// where that pays; the result is the same to the bit.
+    #[doc(alias("compute_voronoi", "container"))]
+    pub fn clip(self, region: &Region3) -> Cells3 {
+        let triangulation = self.triangulation();
+        of(&triangulation.base, triangulation.base.mesh.names.given(), region)
+    }
+
+    /// The cells of all vertices that are not on the hull, as they are: others have no faces, and neither have cells with a corner that is too
+    /// far away for `f64`. On all threads, as [`Self::clip`].
+    ///
+    /// ```
+    /// use delone::{Delaunay3, VertexId};
+    ///
+    /// let grid: Vec<_> = (0..27).map(|i| [i % 3, i / 3 % 3, i / 9]).collect();
+    /// let cells = Delaunay3::from_points(&grid)?.voronoi().bounded();
+    /// assert_eq!(cells.volume(VertexId::new(13)), 1.0);
+    /// assert_eq!(cells.faces(VertexId::new(0)).len(), 0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn bounded(self) -> Cells3 {
+        self.bounded_of(|_| true)
+    }
+
+    /// [`Self::bounded`], of some of the vertices.
+    pub(crate) fn bounded_of(self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
+        let layer = &self.triangulation().base;
+        of_bounded(layer, layer.mesh.names.given(), is_wanted)
+    }
+
+    /// Clips all cells to a region, and hands out one after the other. They come in the order of space, not of the ids, and nothing is
+    /// kept of them: beside the centers of the tetrahedra this takes no memory.
+    ///
+    /// ```
+    /// use delone::{Delaunay3, Region3};
+    ///
+    /// let d = Delaunay3::from_points(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]])?;
+    /// let mut volume = 0.0;
+    /// let region = Region3::cuboid([0.0, 0.0, 0.0], [4.0, 2.0, 1.0])?;
+    /// d.voronoi().clip_each(&region, |_, cell| volume += cell.volume());
+    /// assert_eq!(volume, 8.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn clip_each(self, region: &Region3, each: impl FnMut(VertexId, Cell3<'_>)) {
+        self::each(&self.triangulation().base, region, each);
+    }
+}
+
+/// The cells of all vertices of a layer, clipped; `ids` were given.
+pub(in crate::space) fn of<W: Cellular>(layer: &Layer<W>, ids: usize, region: &Region3) -> Cells3 {
+    let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
+    let parts = parallel::map(parallel::ranges(layer.points.len()), |places| {
+        let mut part = Part::new(centers.points.len());
+        Worker::new(layer, &centers, Some(region)).run(places, |_| true, &mut part, |_, _| {});
+        part
+    });
+    joined(centers, ids, parts)
+}
+
+/// The cells of all vertices of a layer, clipped, one after the other.
+pub(in crate::space) fn each<W: Cellular>(
+    layer: &Layer<W>,
+    region: &Region3,
+    mut each: impl FnMut(VertexId, Cell3<'_>),
+) {
+    let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
+    let mut part = Part::new(centers.points.len());
+    let places = 0..layer.points.len();
+    Worker::new(layer, &centers, Some(region)).run(
+        places,
+        |_| true,
+        &mut part,
+        |part, site| {
+            each(site, part.last(&centers.points));
+            part.forget();
+        },
+    );
+}
+
+/// The whole cells of wanted vertices that are bounded: those of others have no faces.
+pub(in crate::space) fn of_bounded<W: Cellular>(
+    layer: &Layer<W>,
+    ids: usize,
+    is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+) -> Cells3 {
+    let is_wanted = |p: Place| is_wanted(layer.mesh.name(p));
+    let centers = Centers::of(layer, |corners| corners.into_iter().any(is_wanted), |_| true);
+    let parts = parallel::map(parallel::ranges(layer.points.len()), |places| {
+        let mut part = Part::new(centers.points.len());
+        Worker::new(layer, &centers, None).run(places, is_wanted, &mut part, |_, _| {});
+        part
+    });
+    joined(centers, ids, parts)
+}
+
+/// What makes cells, one after the other.
+struct Worker<'a, W: Cellular> {
+    layer: &'a Layer<W>,
+    centers: &'a Centers,
+    region: Option<&'a Region3>,
+    reader: Reader<'a>,
+    solid: Solid,
+    star: Vec<TetrahedronId>,
+    /// The tetrahedra at a site by the names of their other corners, sorted.
+    by_corners: Vec<([u32; 3], TetrahedronId)>,
+}
+
+impl<'a, W: Cellular> Worker<'a, W> {
+    fn new(layer: &'a Layer<W>, centers: &'a Centers, region: Option<&'a Region3>) -> Self {
+        Self {
+            layer,
+            centers,
+            region,
+            reader: Reader::new(&layer.mesh, centers),
+            solid: Solid::default(),
+            star: Vec::new(),
+            by_corners: Vec::new(),
+        }
+    }
+
+    /// Makes the cells of some places.
+    fn run(
+        &mut self,
+        places: std::ops::Range<usize>,
+        is_wanted: impl Fn(Place) -> bool,
+        part: &mut Part,
+        mut each: impl FnMut(&mut Part, VertexId),
+    ) {
+        let mesh = &self.layer.mesh;
+        let is_used =
+            |p: &Place| mesh.incident[p.index()] != TetrahedronId::NONE && !self.layer.is_scaffold(*p);
+        for place in places.map(Place::new).filter(is_used).filter(|&p| is_wanted(p)) {
+            let site = mesh.name(place);
+            part.begin(site);
+            let is_whole = self.reader.push(place, &mut part.faces);
+            if let Some(region) = self.region.filter(|_| !is_whole) {
+                self.cut(place, region, part);
+            }
+            each(part, site);
+        }
+    }
+
+    /// Adds a cell cut out of the region.
+    fn cut(&mut self, place: Place, region: &Region3, part: &mut Part) {
+        let Self { layer, solid, star, by_corners, .. } = self;
+        let site = layer.site(place);
+        let wall = |number: u32| Across3::Wall(number as usize).code();
+        solid.start(region.frame.iter().map(|(side, number)| (*side, number.map(wall))), site.0);
+        for other in layer.joined_to(place, star) {
+            let half_space = W::half_space(site, layer.site(other));
+            solid.cut(half_space, Across3::Site(layer.mesh.name(other)).code());
+            if solid.is_empty() {
+                return;
+            }
+        }
+        for (side, number) in &region.slanted {
+            solid.cut(*side, wall(*number));
+        }
+        by_corners.clear();
+        if layer.scaffold.is_empty() {
+            by_corners.extend(star.iter().filter(|&&t| !layer.mesh.is_ghost(t)).map(|&t| {
+                let corners = layer.mesh.cells[t.index()].corners;
+                let mut others =
+                    corners.into_iter().filter(|&p| p != place).map(|p| layer.mesh.name(p).bits());
+                let mut key = [(); 3].map(|()| others.next().unwrap_or_default());
+                key.sort_unstable();
+                (key, t)
+            }));
+            by_corners.sort_unstable();
+        }
+        let tetrahedron = |beyond: [Option<u32>; 3]| {
+            let mut key = [beyond[0]?, beyond[1]?, beyond[2]?];
+            key.sort_unstable();
+            let found = by_corners.binary_search_by_key(&key, |entry| entry.0).ok()?;
+            Some(by_corners[found].1)
+        };
+        part.push_cut(solid, self.centers, tetrahedron);
+    }
+}
