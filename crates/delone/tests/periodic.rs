@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use delone::{
-    Dimension, Error, Grid, Image, Lattice2, Lattice3, LatticeProblem, Periodic, Periodic2, Periodic3,
-    PeriodicKind, PeriodicRegular2, PeriodicRegular3, VertexId,
+    CellularKind, Dimension, Error, Grid, Image, Lattice2, Lattice3, LatticeProblem, Periodic, Periodic2,
+    Periodic3, PeriodicKind, PeriodicRegular2, PeriodicRegular3, VertexId,
 };
 use delone_generators::Random;
 use delone_predicates::{Sign, in_power_sphere, in_sphere, orient3d};
@@ -344,5 +344,73 @@ fn scales_do_not_show() {
         let scaled: Vec<[f64; 3]> = points.iter().map(|p| p.map(|x| x * scale)).collect();
         let lattice = Lattice3::with_sides([1.0, 2.0, 3.0].map(|x| x * scale)).expect("a box");
         assert_eq!(simplices(&Periodic3::from_points(&scaled, &lattice).expect("a triangulation")), expected);
+    }
+}
+
+/// Cells tile the box: volumes add up, centroids are inside, and each face is one of the cell beyond it too, seen from there.
+fn check_cells<T: CellularKind>(t: &Periodic<T, 3, 4>, volume_of_box: f64) {
+    let cells = t.cells();
+    let sites = 0..t.ids_given();
+    let volume: f64 = sites.clone().map(|i| cells.cell(VertexId::new(i)).volume()).sum();
+    assert!((volume / volume_of_box - 1.0).abs() < 1e-12, "{volume} {volume_of_box}");
+    let mut faces = BTreeMap::new();
+    for site in sites.map(VertexId::new) {
+        let cell = cells.cell(site);
+        let rings = cell.rings();
+        let corners: Vec<[f64; 3]> = cell.corners().collect();
+        // Euler's number of a ball.
+        let sides: usize = rings.iter().map(Vec::len).sum();
+        assert!(rings.is_empty() || corners.len() + rings.len() == sides / 2 + 2);
+        let at = t.position((site, [0; 3]));
+        let mut flux = [0.0; 3];
+        for (face, ring) in cell.faces().zip(&rings) {
+            assert!(face.points().eq(ring.iter().map(|&i| corners[i])));
+            let (other, offset) = face.neighbor();
+            let copy = t.position((other, offset));
+            let vector = face.vector();
+            let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+            for k in 0..3 {
+                assert!((copy[k] - at[k] - vector[k]).abs() < 1e-12);
+                flux[k] += face.area() * vector[k] / length;
+            }
+            assert!(faces.insert((site, other, offset), face.area()).is_none());
+        }
+        // Closed.
+        assert!(flux.iter().all(|x| x.abs() < 1e-9), "{flux:?}");
+        assert_eq!(cell.centroid().is_some(), !rings.is_empty());
+    }
+    for ((site, other, offset), area) in &faces {
+        let back = faces.get(&(*other, *site, offset.map(|x| -x)));
+        assert!(back.is_some_and(|back| (back - area).abs() < 1e-9), "{site:?} {other:?} {offset:?}");
+    }
+}
+
+#[test]
+fn cells_tile_the_box() {
+    let tilted = [[4.0, 0.0, 0.0], [1.0, 3.0, 0.0], [-1.0, 1.0, 5.0]];
+    for axes in [[[3.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 5.0]], tilted] {
+        let lattice = Lattice3::with_axes(axes).expect("a lattice");
+        for n in [1, 2, 3, 10, 100] {
+            // Some of them outside of the box.
+            let points = random_points(n, [9.0, 4.0, 5.0], n as u64);
+            check_cells(&Periodic3::from_points(&points, &lattice).expect("a triangulation"), 60.0);
+            let mut random = Random::new(1);
+            let weights: Vec<f64> = (0..n).map(|_| random.between(0.0, 1.0)).collect();
+            let t = PeriodicRegular3::from_parts(&points, &weights, &lattice).expect("a triangulation");
+            check_cells(&t, 60.0);
+        }
+    }
+    for (basis, faces) in [(SC, 6), (BCC, 14), (FCC, 12)] {
+        for constant in [1.0, 0.3, 3.639] {
+            let (points, lattice) = crystal(basis, 3, constant);
+            let t = Periodic3::from_points(&points, &lattice.grid(Grid::Auto)).expect("a triangulation");
+            let volume = constant.powi(3) / basis.len() as f64;
+            for site in t.vertices() {
+                let cells = t.cells();
+                assert_eq!(cells.cell(site).faces().len(), faces);
+                assert!((cells.cell(site).volume() - volume).abs() < 1e-14 * volume);
+            }
+            check_cells(&t, (3.0 * constant).powi(3));
+        }
     }
 }

@@ -5,7 +5,7 @@ use delone_predicates::{orient2d, orient3d};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, MAX_POINTS_IN_SPACE, VertexId};
 use crate::plane::{Delaunay2, Regular2};
-use crate::space::{Delaunay3, Regular3};
+use crate::space::{Cells3, Delaunay3, Regular3};
 use crate::triangulation::Triangulation;
 
 /// A kind of triangulation that has a periodic form, [`crate::Periodic`]: of D coordinates, with N corners a simplex.
@@ -25,6 +25,25 @@ pub trait PeriodicKind<const D: usize, const N: usize>:
     /// Whether a point is in the line, or the plane, of a facet.
     #[doc(hidden)]
     fn is_in_plane(facet: &[[f64; D]; D], point: [f64; D]) -> bool;
+}
+
+/// A kind of triangulation of space whose periodic form has cells: [`Delaunay3`] and [`Regular3`].
+pub trait CellularKind: PeriodicKind<3, 4> {
+    /// The cells of some of the vertices that are bounded.
+    #[doc(hidden)]
+    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3;
+}
+
+impl CellularKind for Delaunay3 {
+    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
+        self.voronoi().bounded_of(is_wanted)
+    }
+}
+
+impl CellularKind for Regular3 {
+    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
+        self.power().bounded_of(is_wanted)
+    }
 }
 
 mod sealed {

@@ -247,7 +247,21 @@ impl<const D: usize> Prepared<D> {
                 let moves: i128 = (0..D).map(|axis| i128::from(times[axis]) * self.axes[axis][k]).sum();
                 ((place[k] / step) as i128 + moves) as f64 * step
             });
-            self.decimal.map_or(moved, |grid| grid.coordinate(moved))
+            self.length(moved)
+        })
+    }
+
+    /// A length of the places in coordinate units.
+    pub(super) fn length(&self, length: f64) -> f64 {
+        self.decimal.map_or(length, |grid| grid.coordinate(length))
+    }
+
+    /// Any place, moved by vectors of the reduced basis, in coordinate units; rounded.
+    pub(super) fn shifted(&self, place: [f64; D], times: [i64; D]) -> [f64; D] {
+        std::array::from_fn(|k| {
+            let moves: i128 =
+                self.reduced.iter().zip(times).map(|(v, times)| i128::from(times) * v.steps[k]).sum();
+            self.length(place[k] + self.steps[k].map_or(0.0, |step| moves as f64 * step))
         })
     }
 

@@ -15,6 +15,7 @@
 //! Cost: 1.4 times that of the plain triangulation of 10^5 sites in space, 1.2 times of 10^6, 3 to 9 of 10^3; sites in dense clusters cost up
 //! to that of all copies within twice the covering radius of the lattice, some 90 of each in a cube.
 
+mod cells;
 mod copies;
 mod faces;
 mod kinds;
@@ -22,7 +23,8 @@ mod lattice;
 mod quotient;
 mod reduced;
 
-pub use kinds::PeriodicKind;
+pub use cells::{PeriodicCell3, PeriodicCells3, PeriodicFace3};
+pub use kinds::{CellularKind, PeriodicKind};
 pub use lattice::{Grid, Lattice, Lattice2, Lattice3};
 
 use copies::{Copies, first_halo};
