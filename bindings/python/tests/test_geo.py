@@ -1,5 +1,7 @@
 """Geometries as sites, regions and lines; tables of geopandas in and out."""
 
+import warnings
+
 import delone
 import numpy as np
 import pytest
@@ -166,3 +168,14 @@ def test_polygons_stand_for_points_and_segments() -> None:
         delone.mesh(polygon, [[0, 1]])
     with pytest.raises(TypeError, match="polygon 1: a Point has no inside"):
         delone.ConstrainedDelaunay([polygon, shapely.Point(0, 0)])
+
+
+def test_regions_in_another_system_are_told():
+    far = shapely.box(500_000, 5_000_000, 500_001, 5_000_001)
+    with pytest.warns(UserWarning, match="beside all sites, which are in ETRS89"):
+        made = delone.geo.voronoi(frame(), far)
+    assert (~shapely.is_missing(np.asarray(made.geometry))).sum() >= 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        delone.geo.voronoi(frame(), geopandas.GeoSeries([far], crs=25832))  # somebody says so
+        delone.geo.voronoi(frame(), (0.2, 0.2, 0.8, 0.8))

@@ -209,6 +209,11 @@ def test_hulls_and_shapes_are_drawn() -> None:
             axes = delone.plot(kind(points))
             assert axes.has_data()
             plt.close(axes.figure)
+    mesh = delone.mesh([[0, 0], [2, 0], [0, 2]], [[0, 1], [1, 2], [2, 0]], max_edge=0.5)
+    axes = delone.plot(mesh)
+    [segments] = axes.collections
+    assert len(axes.lines) == 2 and len(segments.get_segments()) == len(mesh.segments) > 3
+    plt.close(axes.figure)
     empty = delone.plot(delone.Delaunay(np.empty((0, 3))))
     assert empty.name == "3d"
     plt.close(empty.figure)

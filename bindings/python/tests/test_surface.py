@@ -254,10 +254,31 @@ def test_rasters_of_what_is_inside():
         delone.rasterize(tri, np.arange(8.0), cell=1, method="sibson")
 
 
+def test_rasters_in_the_box_of_the_points():
+    points = random_points(300, 2)
+    z = 2 * points[:, 0] - points[:, 1]
+    values, transform = delone.rasterize(points, z, shape=(20, 30))
+    (west, south), (east, north) = points.min(axis=0), points.max(axis=0)
+    assert values.shape == (20, 30) and (transform[2], transform[5]) == (west, north)
+    assert np.allclose([west + 30 * transform[0], north + 20 * transform[4]], [east, south])
+    x, y = west + (np.arange(30) + 0.5) * (east - west) / 30, north - (np.arange(20) + 0.5) * (north - south) / 20
+    inside = ~np.isnan(values)
+    assert inside.sum() > 500 and np.allclose(values[inside], (2 * x[None, :] - y[:, None])[inside])
+    alone, same = delone.rasterize(np.column_stack([points, z]), shape=(20, 30), method="natural")
+    assert same == transform and np.array_equal(
+        alone, delone.rasterize(points, z, transform, (20, 30), method="sibson"), equal_nan=True
+    )
+    assert len(delone.contours(np.column_stack([points, z]), interval=0.5)) == len(delone.contours(points, z, interval=0.5)) > 0
+    for match, given in [("has no heights", delone.Delaunay(points)), (r"shape \(n, 3\), not \(300, 2\)", points)]:
+        with pytest.raises(ValueError, match=match):
+            delone.rasterize(given, shape=(20, 30))
+
+
 def test_rasters_that_are_refused():
     points, z = random_points(50, 2), np.arange(50.0)
     for match, arguments in [
-        ("give transform and shape, or cell", dict()),
+        ("give transform and shape, or shape alone, or cell", dict()),
+        ("no box to share", dict(shape=(0, 2))),
         ("instead of transform", dict(cell=1, shape=(2, 2))),
         ("must not rotate", dict(transform=(1, 2, 3, 4, 5, 6), shape=(2, 2))),
         ("six numbers", dict(transform=(1, 2), shape=(2, 2))),

@@ -269,7 +269,18 @@ class Mesh:
     @property
     def segment_origin(self) -> NDArray[np.int64]:
         """For each of `segments` the segment that was given and that it is on, the first of several: (k,); -1 for the border
-        of the hull where no segment is."""
+        of the hull where no segment is. Of a polygon side i leaves corner i, counted ring after ring: boundary markers.
+
+        Examples
+        --------
+        >>> import delone
+        >>> from shapely.geometry import Polygon
+        >>> made = delone.mesh(Polygon([(0, 0), (4, 0), (4, 1), (0, 1)]), max_edge=0.5)
+        >>> bottom = made.segments[made.segment_origin == 0]
+        >>> set(made.points[bottom, 1].ravel().tolist())
+        {0.0}
+        >>> sorted(set(made.segment_origin.tolist()))
+        [0, 1, 2, 3]"""
         return self._once("segments", self._core.segments)[1]
 
     @property

@@ -12,28 +12,33 @@ if TYPE_CHECKING:
     from ._constrained import ConstrainedDelaunay
     from ._delaunay import Delaunay
     from ._hull import ConvexHull
+    from ._mesh import Mesh
     from ._voronoi import Voronoi
 
 
-def plot(what: Delaunay | ConstrainedDelaunay | Voronoi | ConvexHull | AlphaComplex, ax: Any = None, **style: Any) -> Any:
-    """Draws a triangulation, a hull, an alpha shape, or Voronoi cells clipped to the box of the points; returns the axes.
+def plot(what: Delaunay | ConstrainedDelaunay | Mesh | Voronoi | ConvexHull | AlphaComplex, ax: Any = None, **style: Any) -> Any:
+    """Draws a triangulation, a mesh, a hull, an alpha shape, or Voronoi cells clipped to the box of the points; returns the axes.
 
-    Of a constrained triangulation it draws what is inside, and constraints as thick lines; of an alpha complex the shape at
-    `optimal_alpha()`. `style` goes to matplotlib: to `triplot` for triangles in the plane, to `PolyCollection` for cells and a
-    hull in the plane; in space to `Line3DCollection` for a triangulation, to `Poly3DCollection` for a hull and a shape.
+    Of a mesh and a constrained triangulation it draws what is inside, and segments as thick lines; of an alpha complex the
+    shape at `optimal_alpha()`. `style` goes to matplotlib: to `triplot` for triangles in the plane, to `PolyCollection` for cells
+    and a hull in the plane; in space to `Line3DCollection` for a triangulation, to `Poly3DCollection` for a hull and a shape.
     """
-    import matplotlib.pyplot as plt
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("plot needs the package matplotlib: pip install matplotlib") from error
     from matplotlib.collections import LineCollection, PolyCollection
 
     from ._alpha import AlphaComplex
     from ._constrained import ConstrainedDelaunay
     from ._delaunay import Delaunay
     from ._hull import ConvexHull
+    from ._mesh import Mesh
     from ._voronoi import Voronoi
 
-    if not isinstance(what, (Delaunay, ConstrainedDelaunay, Voronoi, ConvexHull, AlphaComplex)):
-        raise TypeError(f"a Delaunay, ConstrainedDelaunay, Voronoi, ConvexHull or AlphaComplex is drawn, not {what!r}")
-    if what.ndim == 3 and not isinstance(what, Voronoi):
+    if not isinstance(what, (Delaunay, ConstrainedDelaunay, Mesh, Voronoi, ConvexHull, AlphaComplex)):
+        raise TypeError(f"a Delaunay, ConstrainedDelaunay, Mesh, Voronoi, ConvexHull or AlphaComplex is drawn, not {what!r}")
+    if not isinstance(what, (Mesh, Voronoi)) and what.ndim == 3:
         from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
         ax = ax or plt.figure().add_subplot(projection="3d")
@@ -48,7 +53,7 @@ def plot(what: Delaunay | ConstrainedDelaunay | Voronoi | ConvexHull | AlphaComp
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
         return ax
     ax = ax or plt.gca()
-    if isinstance(what, (Delaunay, ConstrainedDelaunay)):
+    if isinstance(what, (Delaunay, ConstrainedDelaunay, Mesh)):
         if len(what.simplices):
             ax.triplot(what.points[:, 0], what.points[:, 1], what.simplices, **{"linewidth": 0.5, **style})
         elif isinstance(what, Delaunay):
@@ -61,8 +66,9 @@ def plot(what: Delaunay | ConstrainedDelaunay | Voronoi | ConvexHull | AlphaComp
         usual = {"facecolors": "none", "edgecolors": "tab:blue"}
         ax.add_collection(PolyCollection([what.points[what.vertices]], **{**usual, **style}))
         ax.plot(what.points[:, 0], what.points[:, 1], "k.", markersize=3)
-    if isinstance(what, ConstrainedDelaunay):
-        ax.add_collection(LineCollection(list(what.points[what.constraints]), colors="black", linewidths=1.5))
+    if isinstance(what, (ConstrainedDelaunay, Mesh)):
+        segments = what.segments if isinstance(what, Mesh) else what.constraints
+        ax.add_collection(LineCollection(list(what.points[segments]), colors="black", linewidths=1.5))
         ax.autoscale()
     if isinstance(what, Voronoi):
         rings = [ring for cell in what.cells() for ring in cell]

@@ -19,12 +19,12 @@ Rule = Literal["lowest", "first", "highest", "mean"]
 
 def rasterize(
     points: ArrayLike | Delaunay | ConstrainedDelaunay,
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     transform: Sequence[float] | None = None,
     shape: tuple[int, int] | None = None,
     *,
     cell: float | None = None,
-    method: Literal["linear", "sibson", "laplace", "nearest"] = "linear",
+    method: Literal["linear", "sibson", "natural", "laplace", "nearest"] = "linear",
     max_edge: float | None = None,
     max_edge_anywhere: float | None = None,
     duplicates: Rule = "lowest",
@@ -42,15 +42,15 @@ def rasterize(
     points : array_like of shape (n, 2), or Delaunay, or ConstrainedDelaunay
         The points, or their triangulation. Of a constrained one the triangles inside count, for "linear".
     z : array_like of shape (n,)
-        The heights, which must be finite.
+        The heights, which must be finite. Without it points have the shape (n, 3), and the third column is heights.
     transform : affine.Affine, or (a, b, c, d, e, f)
         x = a * column + c, y = e * row + f, without rotation: b and d are zero. With `shape`.
     shape : (rows, columns)
-        The number of cells.
+        The number of cells. Without `transform` they share the box of the points.
     cell : float
         Instead of both: the size of square cells, whose edges are multiples of it, such that they hold all points.
     method : "linear", "sibson", "laplace" or "nearest"
-        How heights come about; all have values in the same cells.
+        How heights come about; all have values in the same cells. "natural", natural neighbors, is "sibson".
     max_edge : float, optional
         Triangles with a longer edge are left out, from the hull inwards: gaps in the middle stay filled.
     max_edge_anywhere : float, optional
@@ -67,9 +67,9 @@ def rasterize(
     Returns
     -------
     array of shape (rows, columns)
-        With `transform` and `shape`. The DataArray with `as_xarray`, also for `cell`: its `attrs` have `transform` and `nodata`.
+        With `transform` and `shape`. The DataArray with `as_xarray` in all cases: its `attrs` have `transform` and `nodata`.
     (array, transform)
-        With `cell`.
+        With `cell`, or `shape` alone.
 
     Examples
     --------
@@ -81,16 +81,24 @@ def rasterize(
     >>> values, transform = delone.rasterize(corners, heights, cell=2.0)
     >>> transform
     (2.0, 0.0, 0.0, 0.0, -2.0, 4.0)
+
+    A picture whose axes are x and y: ``plt.imshow(values, extent=extent)``.
+
+    >>> values, (a, _, c, _, e, f) = delone.rasterize(corners, heights, shape=(2, 4), method="natural")
+    >>> rows, columns = values.shape
+    >>> extent = (c, c + a * columns, f + e * rows, f)
+    >>> extent
+    (0.0, 4.0, 0.0, 4.0)
     """
     as_xarray = as_flag(as_xarray, "as_xarray")
-    method_ = as_choice(method, ("linear", "sibson", "laplace", "nearest"), "method")
+    method_ = as_choice(method, ("linear", "sibson", "natural", "laplace", "nearest"), "method")
+    method_ = "sibson" if method_ == "natural" else method_
     kind = np.dtype(dtype)
     if kind.kind != "f" or kind.itemsize > 8:
         raise TypeError(f"dtype must be float64 or float32, not {kind}; round and convert the result for integers")
     if cell is None:
-        if transform is None or shape is None:
-            raise ValueError("where are the cells? give transform and shape, or cell")
-        a, c, e, f = _transform(transform)
+        if shape is None:
+            raise ValueError("where are the cells? give transform and shape, or shape alone, or cell")
         rows, columns = _shape(shape)
     elif transform is not None or shape is not None:
         raise ValueError("cell is instead of transform and shape")
@@ -99,6 +107,7 @@ def rasterize(
         raise ValueError(f'method must be "linear" for a ConstrainedDelaunay, not {method_!r}')
     longest = as_longest(max_edge, max_edge_anywhere)
     if cell is None:
+        a, c, e, f = _spread(at, rows, columns) if transform is None else _transform(transform)
         values, xs, ys, _, _ = _delone.paint(sheet, method_, heights, (c, f, a, e), (columns, rows), None, mask, longest)
         made: Transform = (a, 0.0, c, 0.0, e, f)
     else:
@@ -114,7 +123,7 @@ def rasterize(
         values = values.astype(kind, copy=False)
     if as_xarray:
         return _to_xarray(values, xs, ys, made, nodata)
-    return values if cell is None else (values, made)
+    return (values, made) if transform is None else values
 
 
 def _to_xarray(
@@ -165,7 +174,7 @@ class ContourBand(NamedTuple):
 
 def contours(
     points: ArrayLike | Delaunay | ConstrainedDelaunay,
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     levels: ArrayLike | None = None,
     interval: float | None = None,
     base: float = 0.0,
@@ -184,7 +193,7 @@ def contours(
     points : array_like of shape (n, 2), or Delaunay, or ConstrainedDelaunay
         The points, or their triangulation; of a constrained one the triangles inside count.
     z : array_like of shape (n,)
-        The heights, which must be finite.
+        The heights, which must be finite. Without it points have the shape (n, 3), and the third column is heights.
     levels : array_like of floats
         The heights of lines, in any order.
     interval, base : floats
@@ -305,10 +314,17 @@ def simplify(
 
 
 def _sheet(
-    points: ArrayLike | Delaunay | ConstrainedDelaunay, z: ArrayLike, rule: Rule
+    points: ArrayLike | Delaunay | ConstrainedDelaunay, z: ArrayLike | None, rule: Rule
 ) -> tuple[_delone.Triangulation | _delone.Constrained, NDArray[np.bool_] | None, NDArray[np.float64], NDArray[np.float64]]:
     """A triangulation, which of its triangles count, heights and points."""
     rule_ = as_choice(rule, ("lowest", "first", "highest", "mean"), "duplicates")
+    if z is None:
+        if isinstance(points, (Delaunay, ConstrainedDelaunay)):
+            raise ValueError("z is missing: a triangulation has no heights")
+        columns = np.asarray(points)
+        if columns.ndim != 2 or columns.shape[1] != 3:
+            raise ValueError(f"z is missing: give it, or points of the shape (n, 3), not {columns.shape}")
+        points, z = columns[:, :2], columns[:, 2]
     if isinstance(points, ConstrainedDelaunay):
         mask = None if points.fill == "all" else np.ascontiguousarray(points.inside)
         return points._core, mask, _settled(points._core, as_heights(z, points.npoints), rule_), points.points
@@ -353,6 +369,14 @@ def _transform(transform: Sequence[float]) -> tuple[float, float, float, float]:
         order = "GDAL's order (c, a, b, f, d, e) differs"
         raise ValueError(f"transform must not rotate: b and d must be 0, not {b} and {d}; {order}")
     return a, c, e, f
+
+
+def _spread(points: NDArray[np.float64], rows: int, columns: int) -> tuple[float, float, float, float]:
+    """The steps and the corner of cells that share the box of points, as `_transform` has them."""
+    if not len(points) or not rows or not columns:
+        raise ValueError("no box to share: give transform and shape for an empty raster")
+    (west, south), (east, north) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return (east - west) / columns, west, (south - north) / rows, north
 
 
 def _shape(shape: tuple[int, int]) -> tuple[int, int]:

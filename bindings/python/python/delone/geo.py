@@ -8,16 +8,21 @@ Needs geopandas and shapely.
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
-import geopandas
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ._geometries import system_of
 from ._polygons import triangulate_polygons
 from ._voronoi import Voronoi
+
+try:
+    import geopandas
+    import shapely
+except ImportError as error:
+    raise ImportError("delone.geo needs the packages geopandas and shapely: pip install geopandas") from error
 
 __all__ = ["lines", "triangulate", "voronoi"]
 
@@ -43,7 +48,8 @@ def voronoi(sites: Any, region: Any = None, *, merge: float | str | None = None)
     Raises
     ------
     ValueError
-        If the region is in another system of coordinates than the sites.
+        If the region is in another system of coordinates than the sites. A region that names none, and is beside all sites, is
+        a warning.
 
     Examples
     --------
@@ -64,6 +70,10 @@ def voronoi(sites: Any, region: Any = None, *, merge: float | str | None = None)
     cells = np.full(len(array), None, dtype=object)
     if is_there.any():
         cells[is_there] = _polygons(Voronoi(array[is_there], merge=merge).cells(region))
+        if column.crs is not None and theirs is None and _are_apart(cells, array):
+            warnings.warn(
+                f"the region is beside all sites, which are in {column.crs.name}: is it in the same system?", stacklevel=2
+            )
     return _with(sites, cells)
 
 
@@ -127,6 +137,12 @@ def lines(geometries: Any) -> tuple[NDArray[np.float64], NDArray[np.int64], NDAr
     joined = (part[1:] == part[:-1]) & ~is_point[part[1:]]
     start = np.flatnonzero(joined)
     return points, np.stack([start, start + 1], axis=1), row_of_part[part]
+
+
+def _are_apart(first: NDArray[Any], second: NDArray[Any]) -> bool:
+    """Whether the boxes of geometries are apart; not if there are none."""
+    (left, low, right, high), (west, south, east, north) = shapely.total_bounds(first), shapely.total_bounds(second)
+    return bool(right < west or left > east or high < south or low > north)
 
 
 def _parts(array: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.int64]]:
