@@ -55,7 +55,7 @@ export function flatRings(rings) {
   const [flat, ends] = [[], []];
   for (const ring of listed(rings, "polygons are arrays of rings")) {
     for (const point of listed(ring, "rings are arrays of points")) {
-      if (!isArray(point)) throw new DeloneError("input", "points are arrays of two numbers", flat.length >> 1);
+      if (!isArray(point)) throw new DeloneError("input", "a polygon is an array of rings, a ring one of points, a point one of two numbers", flat.length >> 1);
       flat.push(number(point[0]), number(point[1]));
     }
     ends.push(flat.length >> 1);

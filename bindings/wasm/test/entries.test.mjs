@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {mkdtempSync, readFileSync, rmSync} from "node:fs";
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
@@ -131,9 +131,21 @@ test("bundles for browsers, of every entry; the default one runs", async () => {
     for (const entry of ["delone/async", "delone/full", "delone/worker"]) await bundle(`export * from "${entry}";`, `${entry}.mjs`);
     await bundle('import {Delaunay} from "delone"; console.log(Delaunay.from([[0, 0], [1, 0], [0, 1]]).voronoi().cellPolygon(0).length);', "bundle.mjs");
     assert.match(execFileSync(process.execPath, [join(folder, "bundle.mjs")], {encoding: "utf8"}), /^[4-6]\n$/);
+    // As the README has it: the worker's script beside the program.
+    const options = {bundle: true, format: "esm", platform: "node", outdir: folder, entryNames: "[name]", logLevel: "silent"};
+    writeFileSync(join(folder, "package.json"), '{"type": "module"}');
+    await build({...options, entryPoints: [`${root}js/worker-thread.js`]});
+    const program = 'import {DelaunayWorker} from "delone/worker"; console.log((await new DelaunayWorker().triangulate([0, 0, 1, 0, 0, 1])).hull.length);';
+    await build({...options, stdin: {contents: program, resolveDir: root}});
+    assert.equal(execFileSync(process.execPath, [join(folder, "stdin.js")], {encoding: "utf8"}), "3\n");
   } finally {
     rmSync(folder, {recursive: true});
   }
+});
+
+test("CommonJS, where Node loads modules by require", {skip: !process.features.require_module}, () => {
+  const script = 'const {Delaunay} = require("delone/full"); console.log(Delaunay.from([[0, 0], [1, 0], [0, 1]]).insert(1, 1));';
+  assert.equal(execFileSync(process.execPath, ["--no-warnings", "-e", script], {cwd: root, encoding: "utf8"}), "3\n");
 });
 
 test("a classic script", () => {

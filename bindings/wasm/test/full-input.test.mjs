@@ -76,6 +76,7 @@ test("rings of points with heights, in typed arrays, and of very many points", (
   assert.deepEqual(Constrained.polygon([ring]), Constrained.polygon([flat.map((p) => Float64Array.from(p))]));
   const v = new Delaunay(uniform(30).map((x) => 4 * x)).voronoi(bounds);
   assert.deepEqual(v.clip([ring]), v.clip([flat]));
+  assert.throws(() => v.clip(flat), {code: "input", message: "a polygon is an array of rings, a ring one of points, a point one of two numbers"});
   assert.deepEqual(v.clip(new Set([new Set(flat)])), v.clip([flat]));
   const inner = [[1, 1], [2, 1], [1, 2]];
   assert.deepEqual(Constrained.polygon([flat, inner], {fill: undefined}), Constrained.polygon([flat, inner]));
