@@ -25,7 +25,8 @@ pub(crate) fn completions(shell: Shell) -> Result<(), Failure> {
 pub(crate) fn man(folder: Option<&Path>, quiet: bool) -> Result<(), Failure> {
     let failed =
         |error: std::io::Error| Failure::new(format!("cannot write manual pages: {error}"), "name a folder");
-    let mut command = Cli::command().name("delone");
+    // Without pages of `help`, which has none of its own.
+    let mut command = Cli::command().name("delone").disable_help_subcommand(true);
     command.build();
     let Some(folder) = folder else {
         let mut page = Vec::new();

@@ -76,6 +76,13 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
     if let Some(crs) = &cloud.crs {
         line("coordinates", crs.to_string());
         stats.set("crs", crs.to_string());
+        if crs.is_degrees() {
+            line("unit of x and y", "degree".to_owned());
+        }
+        let units = [("x and y", crs.metres()), ("heights", crs.metres_of_heights())];
+        for (of, metres) in units.into_iter().filter_map(|(of, metres)| Some((of, metres?))) {
+            line(&format!("unit of {of}"), unit(metres));
+        }
     }
     for (name, kind) in &cloud.dimensions {
         line("extra bytes", format!("{name}: {kind}"));
@@ -100,6 +107,15 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
             line(flag.name(), count.to_string());
             stats.set(&flag.name().replace('-', "_"), count);
         }
+    }
+}
+
+/// A unit of length by its metres. Feet of the United States are two in a million longer than others.
+fn unit(metres: f64) -> String {
+    match metres {
+        1.0 => "metre".to_owned(),
+        0.3047..0.3049 => "foot".to_owned(),
+        _ => format!("{metres} metres"),
     }
 }
 

@@ -16,6 +16,9 @@ use crate::closed;
 /// Commands that `delone-lab` has.
 const OF_THE_LAB: [&str; 4] = ["animate", "experiment", "reduce", "replay"];
 
+/// What other programs call `--dim 3`.
+const SPACE: [&str; 3] = ["-3", "--3d", "--3D"];
+
 /// Why a command did not do its work.
 #[derive(Debug)]
 pub struct Failure {
@@ -137,7 +140,11 @@ pub fn usage(error: &clap::Error, program: &str) -> ExitCode {
         return ExitCode::from(2);
     }
     let rendered = error.render().to_string();
-    let message = rendered.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let message = rendered.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
+    // Words of Rust's own parsers.
+    let message = message
+        .replace("invalid float literal", "not a number")
+        .replace("invalid digit found in string", "not a whole number");
     let suggestion =
         [ContextKind::SuggestedArg, ContextKind::SuggestedValue, ContextKind::SuggestedSubcommand]
             .into_iter()
@@ -146,10 +153,12 @@ pub fn usage(error: &clap::Error, program: &str) -> ExitCode {
                 Some(ContextValue::Strings(names)) => names.first().cloned(),
                 _ => None,
             });
+    let names = |option: &str| matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(name)) if name == option);
     let help = match (error.get(ContextKind::InvalidSubcommand), suggestion) {
         (Some(ContextValue::String(name)), _) if OF_THE_LAB.contains(&name.as_str()) => {
             format!("{name} is a command of delone-lab: cargo install --locked --path crates/lab")
         }
+        _ if SPACE.iter().any(|option| names(option)) => "--dim 3 is for points in space".to_owned(),
         (_, Some(name)) => format!("did you mean {name}? see {program} --help"),
         (_, None) => format!("see {program} --help, or {program} COMMAND --help"),
     };

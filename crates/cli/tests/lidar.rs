@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::place::Place;
+use crate::place::{Place, data};
 
 /// A folder with a copy of the files of `data/lidar`.
 fn place() -> Place {
@@ -151,4 +151,24 @@ fn a_file_without_ground_is_named() {
     place.file("many/c.las", crate::folders::scan(0, 5));
     place.fail("dtm many -o o.npy", 1, "there are no points of ground");
     place.fail("dtm many -o o.npy --memory 64M", 1, "there are no points of ground");
+}
+
+#[test]
+fn ground_and_units_are_told() {
+    let place = place();
+    let note = "l/small.laz: points of all classes are taken; --class ground takes the ground alone";
+    for command in
+        ["contours l/small.laz --interval 5 -o c.geojson", "simplify l/small.laz --max-error 1 -o s.ply"]
+    {
+        assert_eq!(said(&place, command).matches(note).count(), 1, "{command}");
+        assert!(!said(&place, &format!("{command} --class ground")).contains("of all classes"), "{command}");
+    }
+    let told = |line: &str| place.succeed(line);
+    let feet = told(&format!("-q info {}", data("autzen_trim.laz").display()));
+    assert!(feet.contains("unit of x and y        foot\n"), "{feet}");
+    place.file("p.csv", "x,y,z\n1,2,3\n");
+    let both = told("-q info p.csv --epsg 25832+6360");
+    assert!(both.contains("unit of x and y        metre\nunit of heights        foot\n"), "{both}");
+    let degrees = told("-q info p.csv --epsg 4326");
+    assert!(degrees.contains("unit of x and y        degree\n") && !degrees.contains("heights"), "{degrees}");
 }

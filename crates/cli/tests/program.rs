@@ -252,6 +252,8 @@ fn wrong_usage() {
         ("generate nothing -n 5 -o p.npy", "no set named"),
         ("generate uniform -n 5", "output file is missing"),
         ("generate uniform -n x -o q.npy", "x"),
+        ("contours p.csv -o c.geojson --interval 5m", "'--interval <DZ>': not a number"),
+        ("generate uniform -o q.npy --seed 0.5", "'--seed <S>': not a whole number"),
         ("frobnicate", "frobnicate"),
         ("check p.csv p.csv --stats p.csv", "would overwrite"),
         ("check p.csv -", "standard input"),
@@ -262,6 +264,15 @@ fn wrong_usage() {
     }
     place.file("p.svg", "");
     place.fail("triangulate p.svg -o m.ply", 2, "points are not read");
+    for (line, help) in [
+        ("triangulate p.csv -o m.ply --3d", "help: --dim 3 is for points in space"),
+        ("triangulate p.csv -o m.ply -3", "help: --dim 3 is for points in space"),
+        ("relief p.csv -o shade.png", "; delone dtm makes one of points with heights"),
+    ] {
+        let output = place.run(line);
+        let told = text(&output.stderr);
+        assert!(output.status.code() == Some(2) && told.trim_end().ends_with(help), "{line}: {told}");
+    }
 }
 
 #[test]

@@ -185,7 +185,11 @@ impl Error {
             Self::Beyond { .. } => "choose numbers of 64 bits, or remove that value",
             Self::Unsupported { contents, direction, .. } => {
                 let formats = Format::with(&[*contents], *direction);
-                return Cow::Owned(format!("{contents} are {direction}: {formats}"));
+                let maker = match (contents, direction) {
+                    (Contents::Rasters, Direction::Read) => "; delone dtm makes one of points with heights",
+                    _ => "",
+                };
+                return Cow::Owned(format!("{contents} are {direction}: {formats}{maker}"));
             }
         })
     }

@@ -253,7 +253,18 @@ pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure>
         _ => delone_io::read_points_beside(source, format, &options, beside),
     })?;
     need_heights(all.z.as_deref(), &args.label())?;
+    heed_classes(args, &all, quiet);
     Ok((std::mem::take(&mut all.xy), all.z.take().unwrap_or_default(), all))
+}
+
+/// Says that roofs and trees are part of a surface, where ground could be told from them and was not.
+fn heed_classes(args: &InputArgs, cloud: &Cloud, quiet: bool) {
+    const GROUND: u8 = 2;
+    let has_ground = cloud.classes.iter().any(|&(class, count)| class == GROUND && count > 0);
+    if args.las.class.is_empty() && has_ground && cloud.classes.len() > 1 {
+        let what = "points of all classes are taken; --class ground takes the ground alone";
+        note(quiet, format_args!("{}: {what}", args.label().display()));
+    }
 }
 
 /// Refuses points without heights.

@@ -114,8 +114,8 @@ impl Columns {
         match self {
             Self::Geometry(k) => Some(format!("column {} was taken as well-known text", name(k))),
             Self::Numbers(numbers) => {
-                let plain = header && numbers.iter().zip(["x", "y", "z"]).all(|(&k, axis)| fields[k] == axis);
-                if fields.len() == numbers.len() && (!header || plain) {
+                let plain = numbers.iter().zip(["x", "y", "z"]).all(|(&k, axis)| fields[k] == axis);
+                if if header { plain } else { fields.len() == numbers.len() } {
                     return None;
                 }
                 let names: Vec<String> = numbers.iter().map(name).collect();
