@@ -87,6 +87,14 @@ class AlphaComplex:
         In the plane a list of polygons, each a list of rings of indices of points: an outer one, counter-clockwise, and
         holes, clockwise; a polygon for each part that hangs together across edges. In space closed triangles,
         counter-clockwise seen from outside, of shape (count, 3).
+
+        Examples
+        --------
+        >>> import delone
+        >>> ring = [[x, y] for x in range(5) for y in range(5) if (x, y) != (2, 2)]
+        >>> [rings] = delone.AlphaComplex(ring).outline(0.5)
+        >>> [len(part) for part in rings]
+        [16, 4]
         """
         corners, lengths, counts = self._core.outline(float(alpha))
         if self.ndim == 3:
@@ -112,7 +120,15 @@ class AlphaComplex:
 
     def optimal_alpha(self, parts: int = 1) -> float:
         """The least value at which the triangles, in space the tetrahedra, have every vertex as a corner and are at most so many
-        parts, which hang together across sides. ValueError if points span less than the whole."""
+        parts, which hang together across sides. ValueError if points span less than the whole.
+
+        Examples
+        --------
+        >>> import delone
+        >>> ring = [[x, y] for x in range(5) for y in range(5) if (x, y) != (2, 2)]
+        >>> delone.AlphaComplex(ring).optimal_alpha()
+        0.5
+        """
         count = as_index(parts, "parts")
         if count < 1:
             raise ValueError(f"parts must be at least 1, not {count}")

@@ -304,6 +304,14 @@ class ConstrainedDelaunay(Kept):
         inside.
 
         Exact: a point on a border between triangles is in one of them that is inside, if there is one.
+
+        Examples
+        --------
+        >>> import delone
+        >>> points, ring = [[0, 0], [4, 0], [4, 4], [0, 4], [9, 2]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+        >>> tri = delone.ConstrainedDelaunay(points, ring, fill="even-odd")
+        >>> (tri.find_simplex([[1, 2], [6, 2]]) >= 0).tolist()
+        [True, False]
         """
         queries, shape = as_queries(xi, 2)
         return self._core.find(queries, self._names()).reshape(shape)
@@ -341,7 +349,15 @@ class ConstrainedDelaunay(Kept):
 
     def sees(self, a: ArrayLike, b: ArrayLike) -> NDArray[np.bool_]:
         """Whether the open segment from a vertex to another meets no constraint; indices or arrays of them, which are
-        broadcast. A vertex sees itself. IndexError for what is no vertex."""
+        broadcast. A vertex sees itself. IndexError for what is no vertex.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.ConstrainedDelaunay([[0, 0], [8, 0], [4, 1], [4, -1]], [[0, 1]])
+        >>> tri.sees(2, [0, 3]).tolist()
+        [True, False]
+        """
         return np.asarray(self.first_constraint(a, b)[..., 0] < 0)
 
     def check(self) -> None:
@@ -373,13 +389,33 @@ class ConstrainedDelaunay(Kept):
 
     def insert_segment(self, a: int, b: int) -> int:
         """Inserts a segment between two vertices, and returns its id. CrossingError where it crosses a constraint,
-        ValueError for twice the same vertex, IndexError for what is no vertex."""
+        ValueError for twice the same vertex, IndexError for what is no vertex.
+
+        Examples
+        --------
+        >>> import delone
+        >>> points = [[0, 0], [8, 0], [4, 1], [4, -1]]
+        >>> tri = delone.ConstrainedDelaunay(points, [])
+        >>> wall = tri.insert_segment(0, 1)
+        >>> tri.chain(wall).tolist(), len(tri.constraints)
+        ([0, 1], 1)
+        """
         v, w = self._vertex(a), self._vertex(b)
         self._forget()
         return self._core.insert_segment(v, w)
 
     def remove_segment(self, segment: int) -> None:
-        """Removes a segment; its ends, and the vertices on it, stay. IndexError for one that is not there."""
+        """Removes a segment; its ends, and the vertices on it, stay. IndexError for one that is not there.
+
+        Examples
+        --------
+        >>> import delone
+        >>> points = [[0, 0], [8, 0], [4, 1], [4, -1]]
+        >>> tri = delone.ConstrainedDelaunay(points, [])
+        >>> tri.remove_segment(tri.insert_segment(0, 1))
+        >>> len(tri.constraints)
+        0
+        """
         s = self._segment(segment)
         self._forget()
         self._core.remove_segment(s)

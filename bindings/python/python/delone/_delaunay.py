@@ -285,6 +285,16 @@ class Delaunay(Kept):
 
         Exact: a point on the border between simplices is in one of them; one with NaN or infinity is outside. `bruteforce` and
         `tol` are for those who come from SciPy, and have no effect.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> row = tri.find_simplex([[3, 2]])[0]
+        >>> sorted(tri.simplices[row].tolist())
+        [1, 2, 4]
+        >>> tri.find_simplex([[9, 9]]).tolist()
+        [-1]
         """
         given: NDArray[Any] = np.empty(0) if ma.is_masked(xi) else np.asarray(xi)
         if given.dtype.kind == "f" and given.ndim and given.shape[-1] == self.ndim and not np.isfinite(given).all():
@@ -312,12 +322,28 @@ class Delaunay(Kept):
         return found
 
     def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
-        """The nearest vertices; the lexicographically smallest of several. -1 if there is no vertex."""
+        """The nearest vertices; the lexicographically smallest of several. -1 if there is no vertex.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> tri.nearest([[1, 1], [9, 9]]).tolist()
+        [4, 2]
+        """
         queries, shape = as_queries(xi, self.ndim)
         return self._core.nearest(queries).reshape(shape)
 
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
-        """The k nearest vertices, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
+        """The k nearest vertices, nearest first, with one more axis than `nearest`; -1 where there are not so many.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> tri.k_nearest([[1, 1.5]], 2).tolist()
+        [[4, 0]]
+        """
         queries, shape = as_queries(xi, self.ndim)
         k = as_count(k, len(queries))
         return self._core.k_nearest(queries, k).reshape((*shape, k))
@@ -330,6 +356,14 @@ class Delaunay(Kept):
 
         Ctrl-C ends the wait, not the change: whoever asks next waits for its end, and the points are there then. With `restart`
         no point was added.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> tri.add_points([[3, 1]])
+        >>> tri.npoints, tri.nsimplex
+        (6, 6)
         """
         self._refuse_closed()
         self._forget()
@@ -355,6 +389,14 @@ class Delaunay(Kept):
         integers nor a mask, IndexError for what is no vertex, RuntimeError after `close`.
 
         Ctrl-C ends the wait, not the change, as in `add_points`.
+
+        Examples
+        --------
+        >>> import delone
+        >>> tri = delone.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> tri.remove([4])
+        >>> tri.nsimplex, tri.npoints
+        (2, 5)
         """
         self._refuse_closed()
         wanted = as_indices(points, self.npoints)

@@ -36,6 +36,14 @@ def gabriel_graph(points: ArrayLike, *, as_arrays: bool = False) -> csr_array | 
     (heads, tails, weights)
         With `as_arrays`: every edge in both directions with its length, sorted by heads, then by tails: as
         `libpysal.graph.Graph.from_arrays` takes it.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> heads, tails, lengths = delone.gabriel_graph(square, as_arrays=True)  # both ways
+    >>> len(heads) // 2, float(lengths.sum() / 2)
+    (4, 4.0)
     """
     return _graph(points, "gabriel", 0.0, as_arrays)
 
@@ -44,6 +52,14 @@ def relative_neighborhood_graph(points: ArrayLike, *, as_arrays: bool = False) -
     """The relative neighbors: pairs to which no point is nearer, strictly and from both, than they are to each other.
 
     Parameters and results as for `gabriel_graph`.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> heads, tails, lengths = delone.relative_neighborhood_graph(square, as_arrays=True)  # both ways
+    >>> len(heads) // 2, float(lengths.sum() / 2)
+    (4, 4.0)
     """
     return _graph(points, "relative neighbors", 0.0, as_arrays)
 
@@ -52,6 +68,14 @@ def euclidean_minimum_spanning_tree(points: ArrayLike, *, as_arrays: bool = Fals
     """The Euclidean minimum spanning tree; of edges of one length those at lexicographically smaller points are taken.
 
     Parameters and results as for `gabriel_graph`.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> heads, tails, lengths = delone.euclidean_minimum_spanning_tree(square, as_arrays=True)  # both ways
+    >>> len(heads) // 2, float(lengths.sum() / 2)
+    (3, 3.0)
     """
     return _graph(points, "spanning tree", 0.0, as_arrays)
 
@@ -63,6 +87,14 @@ def beta_skeleton(points: ArrayLike, beta: float, *, as_arrays: bool = False) ->
     For `beta` 1 the lune is closed: the Gabriel graph. Above it is open: 2 gives the relative neighbors, and a larger `beta`
     part of the edges of a smaller one. Below 1, where a skeleton is no part of the triangulation, it is a ValueError.
     Other parameters and results as for `gabriel_graph`.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> heads, tails, lengths = delone.beta_skeleton(square, 1.5, as_arrays=True)  # both ways
+    >>> len(heads) // 2, float(lengths.sum() / 2)
+    (4, 4.0)
     """
     return _graph(points, "beta", float(beta), as_arrays)
 
@@ -71,6 +103,14 @@ def knn_graph(points: ArrayLike, k: int, *, as_arrays: bool = False) -> csr_arra
     """Pairs of which one is among the `k` points nearest to the other; of equally near ones the lexicographically smaller.
 
     It is symmetric, so points may have more than `k` neighbors. Other parameters and results as for `gabriel_graph`.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> heads, tails, lengths = delone.knn_graph(square, 2, as_arrays=True)  # both ways
+    >>> len(heads) // 2, float(lengths.sum() / 2)
+    (4, 4.0)
     """
     k = as_index(k, "k")
     if k < 0:

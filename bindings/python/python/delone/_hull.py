@@ -50,6 +50,13 @@ class ConvexHull:
         The corners: in the plane counter-clockwise, in space by index.
     good : (nfacet,) array of booleans, or None
         What `QGn` or `QG-n` asks for, decided exactly: a point in the plane of a facet does not see it. Else None.
+
+    Examples
+    --------
+    >>> import delone
+    >>> hull = delone.ConvexHull([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+    >>> hull.vertices.tolist(), hull.area, hull.volume
+    ([0, 1, 2, 3], 16.0, 16.0)
     """
 
     def __init__(

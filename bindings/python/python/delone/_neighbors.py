@@ -77,12 +77,28 @@ class Neighbors:
         self._core = _delone.Neighbors(self._points)
 
     def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
-        """The nearest points, by their indices. -1 if there are none."""
+        """The nearest points, by their indices. -1 if there are none.
+
+        Examples
+        --------
+        >>> import delone
+        >>> near = delone.Neighbors([[0, 0], [1, 0], [5, 0], [0, 3]])
+        >>> near.nearest([[0.9, 0], [4, 1]]).tolist()
+        [1, 2]
+        """
         queries, shape = as_queries(xi, self.ndim)
         return self._core.nearest(queries).reshape(shape)
 
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
-        """The k nearest points, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
+        """The k nearest points, nearest first, with one more axis than `nearest`; -1 where there are not so many.
+
+        Examples
+        --------
+        >>> import delone
+        >>> near = delone.Neighbors([[0, 0], [1, 0], [5, 0], [0, 3]])
+        >>> near.k_nearest([[0.9, 0]], 3).tolist()
+        [[1, 0, 3]]
+        """
         queries, shape = as_queries(xi, self.ndim)
         k = as_count(k, len(queries))
         return self._core.k_nearest(queries, k).reshape((*shape, k))
@@ -106,6 +122,14 @@ class Neighbors:
 
         The last axis has the k neighbors, nearest first, and is left out for k = 1. Where there are not so many points, the
         distance is infinite and the index is the number of points.
+
+        Examples
+        --------
+        >>> import delone
+        >>> near = delone.Neighbors([[0, 0], [1, 0], [5, 0], [0, 3]])
+        >>> distances, indices = near.query([[0, 0]], k=2)
+        >>> distances.tolist(), indices.tolist()
+        ([[0.0, 1.0]], [[0, 1]])
         """
         queries, shape = as_queries(x, self.ndim)
         k = as_count(k, len(queries))

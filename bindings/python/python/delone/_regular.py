@@ -115,7 +115,15 @@ class RegularTriangulation(Kept):
 
     @property
     def hidden(self) -> NDArray[np.int32]:
-        """The sites whose power cells are empty; those that equal a vertex are not among them."""
+        """The sites whose power cells are empty; those that equal a vertex are not among them.
+
+        Examples
+        --------
+        >>> import delone
+        >>> corners = [[0, 0], [4, 0], [0, 4], [1, 1]]
+        >>> delone.RegularTriangulation(corners, [9, 9, 9, 0]).hidden.tolist()
+        [3]
+        """
         return self._core.hidden()
 
     @property
@@ -201,6 +209,15 @@ class PowerDiagram(RegularTriangulation):
         -------
         float
             By how much of itself an area is wrong at most: `tolerance`, or more where rounding does not allow that.
+
+        Examples
+        --------
+        >>> import delone
+        >>> corners = [[0, 0], [4, 0], [4, 4], [0, 4]]
+        >>> cells = delone.PowerDiagram([[1, 1], [3, 1]], domain=corners)
+        >>> cells = cells.adjust_weights([12, 4]) or cells
+        >>> cells.integrals().round(6).tolist()
+        [12.0, 4.0]
         """
         count = len(self._points)
         shares = np.ones(count) if areas is None else as_numbers(areas, "areas")
@@ -210,7 +227,15 @@ class PowerDiagram(RegularTriangulation):
         return self._core.adjust_weights(wanted, self._rings, tolerance)
 
     def integrals(self) -> NDArray[np.float64]:
-        """The areas of the cells; zero for those that are empty."""
+        """The areas of the cells; zero for those that are empty.
+
+        Examples
+        --------
+        >>> import delone
+        >>> corners = [[0, 0], [4, 0], [4, 4], [0, 4]]
+        >>> delone.PowerDiagram([[1, 1], [3, 1]], [4, 0], corners).integrals().tolist()
+        [12.0, 4.0]
+        """
         areas: NDArray[np.float64] = self._integrated()[0]
         return areas
 

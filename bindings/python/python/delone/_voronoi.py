@@ -58,6 +58,15 @@ class Voronoi:
     point_region : (n,) array
         The region of each point, in the order of the points; that of the equal one for duplicates; -1 for points that are
         furthest from nowhere.
+
+    Examples
+    --------
+    >>> import delone
+    >>> vor = delone.Voronoi([[0, 0], [4, 0], [0, 2], [9, 9]])
+    >>> vor.vertices[0].tolist()
+    [2.0, 1.0]
+    >>> len(vor.ridge_points), len(vor.point_region)
+    (5, 4)
     """
 
     def __init__(
@@ -167,6 +176,13 @@ class Voronoi:
         shapely or GeoJSON, or a column of them; or a box of four numbers, the least x and y and the largest. Without it
         cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the corners of
         the polygon kept.
+
+        Examples
+        --------
+        >>> import delone
+        >>> first, second = delone.Voronoi([[1, 1], [3, 1]]).cells((0, 0, 4, 2))
+        >>> len(first), first[0].tolist()
+        (1, [[2.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0]])
         """
         if self.ndim != 2 or self.furthest_site:
             raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
