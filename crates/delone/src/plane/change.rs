@@ -81,6 +81,16 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::InsertOnly`] with [`Locate::History`] and
     /// [`Locate::Stars`].
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// d.remove(VertexId::new(4))?;
+    /// assert_eq!((d.vertex_count(), d.triangle_count()), (4, 2));
+    /// assert!(d.remove(VertexId::new(4)).is_err()); // it is gone
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
         self.remove_vertex(v, &mut ())
     }
@@ -103,6 +113,17 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// let v = VertexId::new(4);
+    /// d.move_to(v, [3, 1])?;
+    /// assert_eq!(d.point(v), [3.0, 1.0]);
+    /// assert!(d.move_to(v, [4, 4]).is_err()); // another vertex is there
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "move_if_no_collision")]
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         self.move_unobserved(v, point.xy())
@@ -170,6 +191,15 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NotFinite`] names the first bad coordinate, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing
     /// has changed then.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0]])?;
+    /// assert_eq!(d.extend(&[[0, 4], [4, 4], [1, 1]], 7)?, 2..5);
+    /// assert_eq!(d.vertex_count(), 5);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "add_points")]
     pub fn extend<P: Position2>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();

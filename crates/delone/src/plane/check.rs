@@ -51,6 +51,15 @@ pub enum Flaw2 {
 impl Delaunay2 {
     /// Proves that this is the canonical Delaunay triangulation of all its points, or returns the first flaw
     /// found. O(n), and independent of how it was built and changed.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?; // four points on one circle
+    /// d.insert([1, 3])?;
+    /// assert!(d.check().is_ok());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn check(&self) -> Result<(), Flaw2> {
         self.base.mesh.check()?;
         match &self.named {

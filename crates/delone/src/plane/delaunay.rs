@@ -84,6 +84,15 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned
     /// beyond [`MAX_POINTS`].
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [2, 0], [0, 2], [2, 2], [2, 0]])?; // the last one equals the second
+    /// assert_eq!((d.vertex_count(), d.triangle_count()), (4, 2));
+    /// assert!(Delaunay2::from_points(&[[0.0, f64::NAN]]).is_err());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "bulk_load")]
     pub fn from_points<P: Position2>(points: &[P]) -> Result<Self, Error> {
         check_count(points.len(), MAX_POINTS)?;
@@ -92,6 +101,21 @@ impl Delaunay2 {
 
     /// Triangulates points with an algorithm of choice. Errors as [`Self::from_points`], and
     /// [`Error::Parameter`] for a strategy whose parameters are out of range.
+    ///
+    /// ```
+    /// use delone::{Algorithm2, Delaunay2};
+    ///
+    /// let points = [[0, 0], [3, 1], [1, 3], [2, 2], [4, 4]];
+    /// let mut edges = Vec::new();
+    /// for algorithm in [Algorithm2::DivideAndConquer, Algorithm2::Incremental { seed: 1 }] {
+    ///     let mut of_this: Vec<_> = Delaunay2::with_algorithm(&points, algorithm)?.edges().collect();
+    ///     of_this.iter_mut().for_each(|edge| edge.sort());
+    ///     of_this.sort();
+    ///     edges.push(of_this);
+    /// }
+    /// assert_eq!(edges[0], edges[1]); // the same triangulation
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn with_algorithm<P: Position2>(points: &[P], algorithm: Algorithm2) -> Result<Self, Error> {
         check_count(points.len(), MAX_POINTS)?;
         Self::build(parallel::collect(points.len(), |i| points[i].xy()), algorithm)
@@ -184,16 +208,45 @@ impl Delaunay2 {
     }
 
     /// The topology: vertices, edges, triangles, stars, hull.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [2, 0], [0, 2], [2, 2]])?;
+    /// let t = d.triangle_ids().next().expect("there are two");
+    /// let beside = d.mesh().adjacent(t); // some of them ghosts, beyond the hull
+    /// assert_eq!(beside.iter().filter(|&&t| !d.mesh().is_ghost(t)).count(), 1);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn mesh(&self) -> &Mesh2 {
         &self.base.mesh
     }
 
     /// The coordinates of all points ever given, by id: vertices, duplicates, and those since removed.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [1, 0]])?;
+    /// let v = d.insert([0, 1])?.vertex();
+    /// assert_eq!(d.points(), [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    /// assert_eq!(d.points()[v.index()], d.point(v));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn points(&self) -> &[[f64; 2]] {
         self.named.as_deref().unwrap_or(&self.base.points)
     }
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[5, 5], [1, 0], [5, 5]])?;
+    /// let pairs: Vec<_> = d.duplicates().map(|same| (same.point, same.vertex.index())).collect();
+    /// assert_eq!(pairs, [(2, 0)]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "coplanar")]
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         self.duplicates.iter(|v| self.mesh().contains(v))
@@ -205,6 +258,14 @@ impl Delaunay2 {
     }
 
     /// The dimension of the span of the points.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Dimension};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [1, 1], [2, 2]])?;
+    /// assert_eq!((d.dimension(), d.triangle_count(), d.edges().count()), (Dimension::Line, 0, 2));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn dimension(&self) -> Dimension {
         self.mesh().dimension()
     }
@@ -215,17 +276,45 @@ impl Delaunay2 {
     }
 
     /// The vertices, by increasing index.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 4]])?;
+    /// d.remove(delone::VertexId::new(0))?;
+    /// assert_eq!(d.vertices().map(|v| v.index()).collect::<Vec<_>>(), [1, 2]); // ids stay as they are
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().vertices()
     }
 
     /// The finite triangles as corners in counter-clockwise order.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 4]])?;
+    /// let [corners] = d.triangles().collect::<Vec<_>>()[..] else { panic!("one") };
+    /// let mut indices = corners.map(|v| v.index()); // counter-clockwise, from any corner on
+    /// indices.sort();
+    /// assert_eq!(indices, [0, 1, 2]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("simplices", "finite_faces", "inner_faces"))]
     pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
         self.mesh().triangles().map(|t| self.mesh().corners(t))
     }
 
     /// The finite triangles, by id.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// assert_eq!(d.triangle_ids().map(|t| d.area(t)).sum::<f64>(), 16.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn triangle_ids(&self) -> impl Iterator<Item = TriangleId> + '_ {
         self.mesh().triangles()
     }
@@ -239,24 +328,67 @@ impl Delaunay2 {
     }
 
     /// The finite edges, each once.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [3, 0], [0, 4]])?;
+    /// let lengths = d.edges().map(|[a, b]| {
+    ///     let ([x0, y0], [x1, y1]) = (d.point(a), d.point(b));
+    ///     (x1 - x0).hypot(y1 - y0)
+    /// });
+    /// assert_eq!(lengths.sum::<f64>(), 12.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("finite_edges", "undirected_edges"))]
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
     }
 
     /// The vertices joined to a vertex by an edge, counter-clockwise; none for an id that is no vertex.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// assert_eq!(d.neighbors(VertexId::new(4)).count(), 4); // of the one in the middle
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("neighbours", "incident_vertices", "vertex_neighbor_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().neighbors(v)
     }
 
     /// The vertices of the hull, counter-clockwise; of a line those from end to end; see [`Mesh2::hull`].
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// let mut hull: Vec<_> = d.hull_vertices().map(|v| v.index()).collect();
+    /// let least = hull.iter().position(|&v| v == 0).expect("a corner");
+    /// hull.rotate_left(least);
+    /// assert_eq!(hull, [0, 1, 2, 3]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "convex_hull")]
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().hull()
     }
 
     /// The edges of the hull, counter-clockwise; none below the plane.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])?;
+    /// let length = |[a, b]: [delone::VertexId; 2]| {
+    ///     let ([x0, y0], [x1, y1]) = (d.point(a), d.point(b));
+    ///     (x1 - x0).hypot(y1 - y0)
+    /// };
+    /// assert_eq!(d.hull_facets().map(length).sum::<f64>(), 16.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("convex_hull", "hull_edges"))]
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
         self.mesh().hull_facets()
@@ -279,6 +411,14 @@ impl Delaunay2 {
 
     /// The area of a finite triangle, zero for a ghost; positive up to rounding, infinite if it is too large for an `f64`,
     /// and never NaN. In coordinate units squared.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 3]])?;
+    /// assert_eq!(d.triangle_ids().map(|t| d.area(t)).collect::<Vec<_>>(), [6.0]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn area(&self, t: TriangleId) -> f64 {
         if self.mesh().is_ghost(t) {
             return 0.0;
@@ -299,6 +439,15 @@ impl Delaunay2 {
 
     /// The center of the circle through the corners of a finite triangle, correctly rounded (see
     /// [`delone_predicates::circumcenter`]), in coordinate units. `None` for a ghost, and where it is too far away for `f64`. O(1).
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 2]])?;
+    /// let t = d.triangle_ids().next().expect("one");
+    /// assert_eq!(d.circumcenter(t), Some([2.0, 1.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("circumcentre", "dual"))]
     pub fn circumcenter(&self, t: TriangleId) -> Option<[f64; 2]> {
         if self.mesh().is_ghost(t) {

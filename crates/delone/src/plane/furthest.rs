@@ -89,6 +89,15 @@ impl Delaunay2 {
     /// The furthest-site diagram of the vertices as they are now.
     ///
     /// O(h log h) for h vertices on the hull.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 3]])?;
+    /// let circle = d.furthest().enclosing_circle().expect("of three points");
+    /// assert_eq!((circle.center, circle.radius), ([2.0, 1.5], 2.5));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn furthest(&self) -> Furthest2 {
         let hull: Vec<VertexId> = self.hull_vertices().collect();
         let points: Vec<[f64; 2]> = hull.iter().map(|&v| self.point(v)).collect();

@@ -98,6 +98,15 @@ impl Delaunay2 {
     ///
     /// # Errors
     /// [`Error::Parameter`] names a parameter that is out of range.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Locate, Location2, Walk};
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 4]])?;
+    /// d.set_strategy(Locate::Walk(Walk::default()))?; // queries that follow each other in space
+    /// assert!(matches!(d.locate([1, 1])?, Location2::Triangle(_)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
         locate.validate()?;
         self.locate = locate;

@@ -68,6 +68,14 @@ impl Delaunay2 {
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
     /// there is no other, and for an id that is no vertex.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [1, 0], [5, 0]])?;
+    /// assert_eq!(d.nearest_neighbor(VertexId::new(2)), Some(VertexId::new(1)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "nearest_neighbour")]
     pub fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
         let (layer, place) = (&self.base, self.base.mesh.place(v)?);
@@ -86,6 +94,15 @@ impl Delaunay2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [1, 0], [5, 0], [0, 3]])?;
+    /// let near: Vec<_> = d.k_nearest([0.9, 0.0], 3)?.iter().map(|v| v.index()).collect();
+    /// assert_eq!(near, [1, 0, 3]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("nearest_neighbours", "query"))]
     pub fn k_nearest<P: Position2>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xy())?;
@@ -97,6 +114,14 @@ impl Delaunay2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [1, 0], [5, 0], [0, 3]])?;
+    /// assert_eq!(d.within([0, 0], 3.0)?.len(), 3); // the circle itself is within
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("query_ball_point", "vertices_in_circle"))]
     pub fn within<P: Position2>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xy())?;

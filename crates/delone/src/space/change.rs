@@ -73,6 +73,18 @@ impl Delaunay3 {
     /// # Errors
     /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::TooManyTetrahedra`] if what takes the place of its star
     /// does not fit. Nothing has changed then.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let mut d = Delaunay3::from_points(&cube)?;
+    /// let before = d.tetrahedron_count();
+    /// let middle = d.insert([0.5, 0.5, 0.5])?.vertex();
+    /// d.remove(middle)?;
+    /// assert_eq!(d.tetrahedron_count(), before);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
         self.remove_vertex(v, &mut ())
     }
@@ -92,6 +104,17 @@ impl Delaunay3 {
     /// # Errors
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let mut d = Delaunay3::from_points(&cube)?;
+    /// let inside = d.insert([0.5, 0.5, 0.5])?.vertex();
+    /// d.move_to(inside, [0.25, 0.5, 0.5])?;
+    /// assert_eq!(d.point(inside), [0.25, 0.5, 0.5]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn move_to<P: Position3>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         let q = finite(point.xyz())?;
         let old = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;

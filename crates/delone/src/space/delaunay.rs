@@ -92,6 +92,16 @@ impl Delaunay3 {
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
     /// [`crate::MAX_POINTS_IN_SPACE`], [`Error::TooManyTetrahedra`] beyond 2^30 of these, which some sets of 66,000 points have.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let d = Delaunay3::from_points(&cube)?;
+    /// assert_eq!((d.vertex_count(), d.hull_facets().count()), (8, 12));
+    /// assert!((5..=6).contains(&d.tetrahedron_count()));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         check_in_space(points)?;
         Ok(Self::assemble(with_room(construct::triangulate(points, 0, &mut ()))?, Work::default()))
@@ -204,6 +214,21 @@ impl Delaunay3 {
     }
 
     /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let d = Delaunay3::from_points(&cube)?;
+    /// let volume = |corners: [delone::VertexId; 4]| {
+    ///     let [a, b, c, d] = corners.map(|v| d.point(v));
+    ///     let [u, v, w] = [a, b, c].map(|p| [0, 1, 2].map(|axis| p[axis] - d[axis]));
+    ///     let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    ///     (cross[0] * w[0] + cross[1] * w[1] + cross[2] * w[2]).abs() / 6.0
+    /// };
+    /// assert!((d.tetrahedra().map(volume).sum::<f64>() - 1.0).abs() < 1e-12);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("simplices", "finite_cells"))]
     pub fn tetrahedra(&self) -> impl Iterator<Item = [VertexId; 4]> + '_ {
         self.tetrahedron_ids().map(|t| self.base.mesh.corners(t))
@@ -244,12 +269,31 @@ impl Delaunay3 {
     /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
     /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
     /// none.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let d = Delaunay3::from_points(&cube)?;
+    /// assert_eq!(d.hull_facets().count(), 12); // two triangles on each side
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "convex_hull")]
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
         self.base.hull_facets()
     }
 
     /// The vertices on the hull by increasing index: the corners of [`Self::hull_facets`], so none of less than a plane.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let mut d = Delaunay3::from_points(&cube)?;
+    /// d.insert([0.5, 0.5, 0.5])?;
+    /// assert_eq!(d.hull_vertices().count(), 8);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "convex_hull")]
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         let mut corners: Vec<VertexId> = self.hull_facets().flatten().collect();
@@ -259,12 +303,30 @@ impl Delaunay3 {
     }
 
     /// The edges, each once, of whatever the points span.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let d = Delaunay3::from_points(&[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])?;
+    /// assert_eq!(d.edges().count(), 6);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "finite_edges")]
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.base.edges()
     }
 
     /// The vertices joined to a vertex by an edge; none for an id that is no vertex.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let mut d = Delaunay3::from_points(&cube)?;
+    /// let middle = d.insert([0.5, 0.5, 0.5])?.vertex();
+    /// assert_eq!(d.neighbors(middle).count(), 8);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("neighbours", "adjacent_vertices", "vertex_neighbor_vertices"))]
     pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let joined = self.base.mesh.place(v).map(|p| self.neighbors_of(p, &mut Vec::new()));
@@ -273,6 +335,16 @@ impl Delaunay3 {
 
     /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex, and below
     /// space.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let mut d = Delaunay3::from_points(&cube)?;
+    /// let middle = d.insert([0.5, 0.5, 0.5])?.vertex();
+    /// assert_eq!(d.tetrahedra_at(middle).len(), d.tetrahedron_count()); // it is in all of them
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "incident_cells")]
     pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
         let mut star = Vec::new();

@@ -76,6 +76,15 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let d = Delaunay3::from_points(&cube)?;
+    /// assert_eq!(d.k_nearest([0.9, 0.1, 0.2], 2)?.iter().map(|v| v.index()).collect::<Vec<_>>(), [1, 5]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("nearest_neighbours", "query"))]
     pub fn k_nearest<P: Position3>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xyz())?;
@@ -87,6 +96,15 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let d = Delaunay3::from_points(&cube)?;
+    /// assert_eq!(d.within([0, 0, 0], 1.0)?.len(), 4); // the corner and those beside it
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "query_ball_point")]
     pub fn within<P: Position3>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
         let q = finite(q.xyz())?;

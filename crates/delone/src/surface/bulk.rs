@@ -72,6 +72,16 @@ impl<T: Surround> Interpolator<'_, T> {
     ///
     /// # Errors
     /// As [`Self::many`].
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let weights = Interpolator::sibson(&d).matrix(&[[2.0, 2.0], [9.0, 9.0]])?;
+    /// assert_eq!(weights.starts, [0, 4, 4]); // a row of four, and an empty one
+    /// assert_eq!(weights.values, [0.25; 4]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn matrix(&self, points: &[T::Point]) -> Result<Weights, Error> {
         let work = |own: &mut Self, q: T::Point, rows: &mut Vec<(usize, Vec<(u32, f64)>)>| {
             let mut row: Vec<_> =
@@ -117,6 +127,18 @@ impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
     ///
     /// # Errors
     /// [`Error::Values`] if there are not as many values as ids of vertices.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::{Grid, Interpolator, rasterize}};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// let grid = Grid::new([0.0, 4.0], [1.0, -1.0], 5, 4)?;
+    /// let mut raster = rasterize(&d, &heights, &grid, |_| true)?; // NaN in the last column, which is outside
+    /// Interpolator::sibson(&d).fill(&grid, &heights, &mut raster)?;
+    /// assert!((raster[0] - 4.0).abs() < 1e-12 && raster[4].is_nan()); // at 0.5, 3.5 and at 4.5, 3.5
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn fill(&self, grid: &Grid, values: &[f64], mask: &mut [f64]) -> Result<(), Error> {
         check_values(self.triangulation(), values.len(), 1)?;
         self.fill_with(grid, mask, |own, q| own.value(q, values))

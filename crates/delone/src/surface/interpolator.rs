@@ -116,17 +116,46 @@ fn by_walk<T: Surround>(
 
 impl<'t, T: Surround> Interpolator<'t, T> {
     /// Linear in each triangle or tetrahedron.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// assert_eq!(Interpolator::linear(&d).value([1.0, 2.0], &heights)?, Some(3.0));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn linear(d: &'t T) -> Self {
         Self::new(d, Method::Linear, by_walk)
     }
 
     /// Natural neighbors, each with the size of the facet between its cell and that of the point, over their distance.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// let between = Interpolator::laplace(&d).value([1.0, 2.0], &heights)?;
+    /// assert!(between.is_some_and(|z| (z - 3.0).abs() < 1e-12));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn laplace(d: &'t T) -> Self {
         Self::new(d, Method::Natural(Measure::Laplace), by_walk)
     }
 
     /// Natural neighbors, each with what the cell of the point takes from its cell: the area, or the volume. Continuously
     /// differentiable but at vertices.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// let between = Interpolator::sibson(&d).value([1.0, 2.0], &heights)?;
+    /// assert!(between.is_some_and(|z| (z - 3.0).abs() < 1e-12));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn sibson(d: &'t T) -> Self {
         Self::new(d, Method::Natural(Measure::Sibson), by_walk)
     }
@@ -134,11 +163,29 @@ impl<'t, T: Surround> Interpolator<'t, T> {
 
 impl<'t, T: Ask> Interpolator<'t, T> {
     /// The value of the nearest vertex.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// assert_eq!(Interpolator::nearest(&d).value([1.0, 1.5], &heights)?, Some(0.0));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn nearest(d: &'t T) -> Self {
         Self::new(d, Method::Nearest, by_location)
     }
 
     /// Linear in each triangle, of a triangulation of any kind: with constraints, say. Each point is located anew.
+    ///
+    /// ```
+    /// use delone::{Constrained2, surface::Interpolator};
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[[0, 2]])?; // a valley that no height is across
+    /// let heights = [0.0, 9.0, 0.0, 9.0];
+    /// assert_eq!(Interpolator::linear_in(&c).value([2.0, 2.0], &heights)?, Some(0.0));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn linear_in(d: &'t T) -> Self {
         Self::new(d, Method::Linear, by_location)
     }
@@ -160,6 +207,17 @@ impl<'t, T: Ask> Interpolator<'t, T> {
     }
 
     /// Says what there is outside of the hull.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::{Interpolator, Outside}};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// let mut f = Interpolator::linear(&d);
+    /// assert_eq!(f.value([6.0, 2.0], &heights)?, None);
+    /// assert_eq!(f.outside(Outside::Hull).value([6.0, 2.0], &heights)?, Some(6.0)); // as at 4, 2
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn outside(self, outside: Outside) -> Self {
         Self { outside, ..self }
@@ -259,6 +317,18 @@ impl<'t, T: Ask> Interpolator<'t, T> {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities; [`Error::Values`] if there are not as many values as ids of vertices.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let heights = [0.0, 4.0, 8.0, 4.0]; // x + y
+    /// let mut f = Interpolator::sibson(&d); // it is near where it was: the next point is found fast
+    /// assert_eq!(f.value([4.0, 4.0], &heights)?, Some(8.0));
+    /// assert_eq!(f.value([5.0, 4.0], &heights)?, None);
+    /// assert!(f.value([0.0, 0.0], &[1.0]).is_err()); // a value for each vertex
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn value(&mut self, q: T::Point, values: &[f64]) -> Result<Option<f64>, Error> {
         check_values(self.d, values.len(), 1)?;
         let weights = self.weights(q)?;
@@ -269,6 +339,17 @@ impl<'t, T: Ask> Interpolator<'t, T> {
     ///
     /// # Errors
     /// As [`Self::value`].
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [2, 0], [0, 2]])?;
+    /// let table = [0.0, 5.0, 2.0, 7.0, 4.0, 9.0]; // two values at each vertex
+    /// let mut row = [0.0; 2];
+    /// assert!(Interpolator::linear(&d).values([1.0, 0.0], &table, &mut row)?);
+    /// assert_eq!(row, [1.0, 6.0]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn values(&mut self, q: T::Point, table: &[f64], row: &mut [f64]) -> Result<bool, Error> {
         let columns = row.len();
         check_values(self.d, table.len(), columns)?;

@@ -72,6 +72,15 @@ impl Hull3 {
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate, [`Error::TooManyPoints`] is for more than
     /// [`crate::MAX_POINTS`].
+    ///
+    /// ```
+    /// use delone::Hull3;
+    ///
+    /// let cube: Vec<[i32; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    /// let hull = Hull3::from_points(&cube)?;
+    /// assert_eq!((hull.corners().len(), hull.faces().len(), hull.facets().count()), (8, 6, 12));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         let points = &*P::all(points);
         check(points)?;
@@ -164,6 +173,16 @@ impl Hull3 {
 
     /// The flat faces as polygons, counter-clockwise seen from outside, each from its lexicographically smallest
     /// corner; sorted. The one face of a flat set may be seen from either side.
+    ///
+    /// ```
+    /// use delone::Hull3;
+    ///
+    /// let hull = Hull3::from_points(&[[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 1]])?; // a pyramid
+    /// let mut corners: Vec<_> = hull.faces().map(<[_]>::len).collect();
+    /// corners.sort();
+    /// assert_eq!(corners, [3, 3, 3, 3, 4]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn faces(&self) -> impl ExactSizeIterator<Item = &[usize]> + '_ {
         self.joined.as_ref().map_or(&self.faces, |joined| &joined.polygons).iter()
     }

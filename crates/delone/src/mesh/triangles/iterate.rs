@@ -30,6 +30,15 @@ impl Mesh2 {
 
     /// The edges that leave a vertex, counter-clockwise, those to the ghost vertex included. Empty for an
     /// index that is no vertex, and for a lone one.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]])?;
+    /// let star = d.mesh().star(VertexId::new(4)); // edges that leave it, counter-clockwise
+    /// assert_eq!(star.map(|e| d.mesh().destination(e).index()).count(), 4);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("circulator", "incident_faces", "incident_edges", "out_edges"))]
     pub fn star(&self, v: VertexId) -> Star<'_> {
         self.place(v).map_or(Star { mesh: self, first: EdgeId::NONE, next: EdgeId::NONE }, |p| self.spokes(p))

@@ -99,6 +99,15 @@ impl Mesh2 {
     }
 
     /// The twin: the edge in the other direction, of the triangle on the other side.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 4]])?;
+    /// let mesh = d.mesh();
+    /// assert!(mesh.undirected_edges().all(|e| mesh.origin(mesh.twin(e)) == mesh.destination(e)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("mirror_edge", "rev", "opposite"))]
     #[inline]
     pub fn twin(&self, e: EdgeId) -> EdgeId {

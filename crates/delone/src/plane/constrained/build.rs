@@ -63,6 +63,16 @@ impl Constrained2 {
     /// # Errors
     /// [`Error::SegmentsCross`] if two segments cross at no vertex, [`Error::NoSuchPoint`] for an index that is none,
     /// [`Error::NotFinite`] and [`Error::TooManyPoints`] as [`Delaunay2::from_points`].
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]];
+    /// let c = Constrained2::from_parts(&points, &[[0, 2]])?; // a segment by the indices of its ends
+    /// assert_eq!(c.constraints().count(), 1);
+    /// assert!(Constrained2::from_parts(&points, &[[0, 2], [1, 3]]).is_err()); // these cross
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "bulk_load_cdt")]
     pub fn from_parts<P: Position2>(points: &[P], segments: &[[usize; 2]]) -> Result<Self, Error> {
         Self::with_crossings(points, segments, Crossings::Refuse)

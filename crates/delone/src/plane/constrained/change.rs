@@ -35,6 +35,15 @@ impl Constrained2 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities; [`Error::TooManyPoints`] after [`crate::MAX_POINTS`] ids. Nothing has
     /// changed then.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [0, 4]], &[[0, 1]])?;
+    /// c.insert([2, 0])?; // on the segment, which is two constraints then
+    /// assert_eq!((c.constraints().count(), c.segments().count()), (2, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn insert<P: Position2>(&mut self, point: P) -> Result<Inserted, Error> {
         let q = finite(point.xy())?;
         let found = self.graph.spot_to_insert(q, &mut ());
@@ -264,6 +273,18 @@ impl Constrained2 {
     ///
     /// # Errors
     /// [`Error::NoSuchSegment`] if it is not there (any more), or has no length.
+    ///
+    /// ```
+    /// use delone::{Constrained2, VertexId};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [8, 0], [4, 1], [4, -1]], &[])?;
+    /// let [a, b] = [0, 1].map(VertexId::new);
+    /// let wall = c.insert_segment(a, b)?;
+    /// assert!(c.constraints().any(|edge| edge == [a, b] || edge == [b, a]));
+    /// c.remove_segment(wall)?;
+    /// assert_eq!(c.constraints().count(), 0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("remove_constraint", "remove_constraint_edge"))]
     pub fn remove_segment(&mut self, s: SegmentId) -> Result<(), Error> {
         if self.segments.ends(s).is_none() {

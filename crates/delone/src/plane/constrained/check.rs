@@ -34,6 +34,14 @@ pub enum ConstrainedFlaw2 {
 impl Constrained2 {
     /// Proves that this is the canonical constrained Delaunay triangulation of its points and segments, or returns the first
     /// flaw found. Independent of how it was built and changed.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [4, 1], [0, 4], [1, 1]], &[[0, 2]])?;
+    /// assert!(c.check().is_ok());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn check(&self) -> Result<(), ConstrainedFlaw2> {
         self.graph.check()?;
         let mesh = self.mesh();

@@ -191,6 +191,18 @@ impl Constrained2 {
     /// # Errors
     /// [`Error::Seed`] for a seed on a constraint or outside of the hull, [`Error::Coordinate`] for one that is not finite,
     /// [`Error::Parts`] for parts of another triangulation.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Fill};
+    ///
+    /// let points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [3, 1], [2, 3]];
+    /// let rings = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]];
+    /// let c = Constrained2::from_parts(&points, &rings)?;
+    /// let domains = c.domains(&Fill::EvenOdd)?;
+    /// let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
+    /// assert_eq!(inside.map(|t| c.area(t)).sum::<f64>(), 14.0); // without the hole
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn domains(&self, fill: &Fill) -> Result<Domains2, Error> {
         self.domains_within(fill, |_| true)
     }

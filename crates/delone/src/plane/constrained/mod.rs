@@ -135,17 +135,41 @@ impl Constrained2 {
     }
 
     /// Counts of the segments of the construction.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [4, 0], [0, 4]], &[[0, 1], [1, 0], [2, 2]])?;
+    /// assert_eq!((c.report().repeated, c.report().zero_length), (1, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn report(&self) -> &ConstraintReport2 {
         &self.report
     }
 
     /// Whether an edge is a constraint.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [4, 0], [0, 4]], &[[0, 1]])?;
+    /// assert_eq!(c.mesh().undirected_edges().filter(|&e| c.is_constraint(e)).count(), 1);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("is_constrained", "is_constraint_edge"))]
     pub fn is_constraint(&self, e: EdgeId) -> bool {
         self.mesh().is_fixed(e)
     }
 
     /// The constraint edges, each once, the lesser end first.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [2, 0], [4, 0], [1, 3]], &[[0, 2]])?;
+    /// assert_eq!(c.constraints().count(), 2); // the segment passes through the second point
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "constrained_edges")]
     pub fn constraints(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.constraint_edges().map(|e| {
@@ -167,6 +191,16 @@ impl Constrained2 {
     /// The vertices along a segment, from its first end to its second; `None` for one that is not there.
     ///
     /// Cost: O(1) for each vertex of usual degree on it.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [2, 0], [4, 0], [1, 3]], &[[0, 2]])?;
+    /// let (segment, _) = c.segments().next().expect("one");
+    /// let vertices = c.chain(segment).expect("it is there");
+    /// assert_eq!(vertices.iter().map(|v| v.index()).collect::<Vec<_>>(), [0, 1, 2]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn chain(&self, s: SegmentId) -> Option<Vec<VertexId>> {
         let ends = self.segments.ends(s)?;
         let mut vertices = vec![ends[0]];

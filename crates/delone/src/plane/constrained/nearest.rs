@@ -69,6 +69,14 @@ impl Constrained2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::Constrained2;
+    ///
+    /// let c = Constrained2::from_parts(&[[0, 0], [4, 0], [0, 4]], &[[1, 2]])?;
+    /// assert_eq!(c.nearest([3, 1])?.map(|v| v.index()), Some(1)); // segments hide nothing
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "nearest_vertex")]
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
         Ok(self.k_nearest(q, 1)?.first().copied())

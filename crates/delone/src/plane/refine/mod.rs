@@ -142,12 +142,30 @@ impl<'a> Refinement<'a> {
 
     /// No angle is to be smaller than so many degrees: 0, which asks for nothing, to 34, or less than 60 with
     /// [`Self::max_vertices`].
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [9, 0], [9, 1], [0, 1]], &[])?;
+    /// let made = Refinement::new().min_angle(30.0).run(&mut c)?;
+    /// assert!(made.report.smallest_angle >= 30.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn min_angle(self, degrees: f64) -> Self {
         Self { min_angle: degrees, ..self }
     }
 
     /// No triangle is to be larger. Regions may have smaller bounds of their own, see [`crate::RegionSeed2::max_area`].
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// Refinement::new().max_area(0.5).run(&mut c)?;
+    /// assert!(c.triangle_ids().all(|t| c.area(t) <= 0.5));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn max_area(self, area: f64) -> Self {
         Self { max_area: Some(area), ..self }
@@ -160,24 +178,64 @@ impl<'a> Refinement<'a> {
     }
 
     /// No edge is to be longer, constraints included.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// Refinement::new().max_edge(1.0).run(&mut c)?;
+    /// let length = |[a, b]: [[f64; 2]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+    /// assert!(c.mesh().undirected_edges().all(|e| length(c.segment(e)) <= 1.0));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn max_edge(self, length: f64) -> Self {
         Self { max_edge: Some(length), ..self }
     }
 
     /// No edge of a triangle is to be longer than what is said for its centroid. Infinite is no bound.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let graded = |[x, _]: [f64; 2]| 0.2 + 0.5 * x; // short edges on the left
+    /// Refinement::new().size(&graded).run(&mut c)?;
+    /// let left = c.vertices().filter(|&v| c.point(v)[0] < 2.0).count();
+    /// assert!(left > c.vertex_count() / 2);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn size(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
         Self { size_at: Some(length), ..self }
     }
 
     /// Sets the largest number of new vertices.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let made = Refinement::new().max_area(0.001).max_vertices(10).run(&mut c)?;
+    /// assert_eq!(c.vertex_count(), 14);
+    /// assert!(!made.report.left.is_empty()); // what is not as it was to be
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn max_vertices(self, count: usize) -> Self {
         Self { max_vertices: Some(count), ..self }
     }
 
     /// Constraints that may not be split.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Keep, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// Refinement::new().max_area(0.5).keep(Keep::Border).run(&mut c)?;
+    /// assert_eq!(c.hull_vertices().count(), 4); // no side was split
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn keep(self, keep: Keep) -> Self {
         Self { keep, ..self }
@@ -210,6 +268,16 @@ impl<'a> Refinement<'a> {
     }
 
     /// Sets the rule for what is inside. Where the hull is the border, it becomes a constraint.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Fill, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[[0, 1], [1, 2], [2, 0]])?;
+    /// let made = Refinement::new().max_area(0.5).fill(Fill::EvenOdd).run(&mut c)?;
+    /// let inside = c.triangle_ids().filter(|&t| made.domains.is_inside(t));
+    /// assert!((inside.map(|t| c.area(t)).sum::<f64>() - 8.0).abs() < 1e-9); // the half that segments bound
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn fill(self, fill: Fill<'a>) -> Self {
         Self { fill, ..self }
@@ -224,6 +292,16 @@ impl<'a> Refinement<'a> {
     /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] and
     /// [`Error::Parts`] as [`Constrained2::domains`]; nothing has changed then. [`Error::Size`] if a bound that is asked for a place
     /// is not positive, [`Error::Stopped`]: the triangulation is a valid one then, refined in part.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let made = Refinement::new().min_angle(25.0).max_area(1.0).run(&mut c)?;
+    /// assert!(made.report.left.is_empty()); // all is as it was to be
+    /// assert_eq!(made.report.triangles, c.triangle_count());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
         let mut domains = c.domains(&self.fill)?;

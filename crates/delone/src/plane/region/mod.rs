@@ -109,6 +109,15 @@ impl Region2 {
     ///
     /// # Errors
     /// [`Error::Region`] if they do not span the plane.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 4], [1, 1]])?;
+    /// assert_eq!(Region2::hull(&d)?.area(), 8.0);
+    /// assert!(Region2::hull(&Delaunay2::from_points(&[[0, 0], [1, 1]])?).is_err());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn hull(triangulation: &Delaunay2) -> Result<Self, Error> {
         let corners: Vec<[f64; 2]> = triangulation.hull_vertices().map(|v| triangulation.point(v)).collect();
         if !triangulation.base.spanned {
@@ -143,11 +152,28 @@ impl Region2 {
     }
 
     /// The rings: outer ones counter-clockwise, holes clockwise.
+    ///
+    /// ```
+    /// use delone::Region2;
+    ///
+    /// let outer = vec![[0, 0], [4, 0], [4, 4], [0, 4]];
+    /// let region = Region2::polygon(&[outer, vec![[1, 1], [2, 1], [1, 2]]])?;
+    /// assert_eq!(region.rings().map(<[_]>::len).collect::<Vec<_>>(), [4, 3]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn rings(&self) -> impl Iterator<Item = &[[f64; 2]]> {
         self.rings.iter().map(Vec::as_slice)
     }
 
     /// The corners of the smallest rectangle around it, low and high.
+    ///
+    /// ```
+    /// use delone::Region2;
+    ///
+    /// let region = Region2::polygon(&[vec![[0, 0], [4, 1], [1, 3]]])?;
+    /// assert_eq!(region.bounds(), [[0.0, 0.0], [4.0, 3.0]]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         [self.low, self.high]
     }

@@ -31,6 +31,15 @@ impl Regular2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`], [`Error::Weight`] if a number is not finite, [`Error::TooManyPoints`]; then nothing changes.
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let mut r = Regular2::from_sites(&[([0, 0], 0.0), ([4, 0], 0.0), ([4, 4], 0.0), ([0, 4], 0.0), ([2, 2], 0.0)])?;
+    /// let v = r.insert([2, 1], 8.0)?.vertex(); // so heavy that it hides the one beside it
+    /// assert!(!r.is_hidden(v) && r.is_hidden(delone::VertexId::new(4)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn insert<P: Position2>(&mut self, point: P, weight: f64) -> Result<Inserted, Error> {
         let q = finite(point.xy())?;
         check_weights(&[weight])?;
@@ -125,6 +134,15 @@ impl Regular2 {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::Weight`]; then nothing changes.
+    ///
+    /// ```
+    /// use delone::{Regular2, VertexId};
+    ///
+    /// let mut r = Regular2::from_sites(&[([0, 0], 9.0), ([4, 0], 9.0), ([0, 4], 9.0), ([1, 1], 0.0)])?;
+    /// r.set_weight(VertexId::new(3), 9.0)?;
+    /// assert_eq!(r.hidden().count(), 0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
         check_weights(&[weight])?;
         let place = self.lift(v)?;

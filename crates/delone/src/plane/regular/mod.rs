@@ -96,6 +96,14 @@ impl Regular2 {
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Weight`] for numbers that are not finite, by index; [`Error::TooManyPoints`].
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let r = Regular2::from_sites(&[([0, 0], 9.0), ([4, 0], 9.0), ([0, 4], 9.0), ([1, 1], 0.0)])?;
+    /// assert_eq!(r.vertex_count(), 3); // large circles hide the small one among them
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn from_sites<P: Position2>(sites: &[(P, f64)]) -> Result<Self, Error> {
         let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|(p, w)| (p.xy(), *w)).unzip();
         Self::from_parts(&points, &weights)
@@ -105,6 +113,14 @@ impl Regular2 {
     ///
     /// # Errors
     /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let r = Regular2::from_parts(&[[0, 0], [4, 0], [0, 4]], &[0.0, 4.0, 0.0])?;
+    /// assert_eq!(r.site(delone::VertexId::new(1)), Some(([4.0, 0.0], 4.0)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn from_parts<P: Position2>(points: &[P], weights: &[f64]) -> Result<Self, Error> {
         Self::check_input(points, weights)?;
         Ok(build::divide_and_conquer(&P::all(points), weights))
@@ -160,6 +176,15 @@ impl Regular2 {
     }
 
     /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let r = Regular2::from_sites(&[([0, 0], 9.0), ([4, 0], 9.0), ([0, 4], 9.0), ([1, 1], 0.0)])?;
+    /// assert_eq!(r.hidden().map(|v| v.index()).collect::<Vec<_>>(), [3]);
+    /// assert!(r.is_hidden(delone::VertexId::new(3)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "hidden_vertices")]
     pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.hidden_sites.hidden()

@@ -47,6 +47,14 @@ impl Regular2 {
     ///
     /// # Errors
     /// [`Error::Coordinate`] if a coordinate is not finite.
+    ///
+    /// ```
+    /// use delone::Regular2;
+    ///
+    /// let r = Regular2::from_sites(&[([0, 0], 0.0), ([4, 0], 9.0), ([0, 4], 0.0)])?;
+    /// assert_eq!(r.nearest([1, 0])?.map(|v| v.index()), Some(1)); // 3 * 3 - 9 < 1 * 1
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "nearest_power_vertex")]
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
         Ok(self.lowest(finite(q.xy())?).map(|place| self.mesh().name(place)))

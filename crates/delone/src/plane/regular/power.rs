@@ -60,6 +60,15 @@ pub struct Jacobian2 {
 
 impl Regular2 {
     /// The power diagram.
+    ///
+    /// ```
+    /// use delone::{Region2, Regular2, VertexId};
+    ///
+    /// let r = Regular2::from_sites(&[([1, 1], 4.0), ([3, 1], 0.0)])?; // the larger weight takes more
+    /// let cells = r.power().clip(&Region2::rectangle([0, 0], [4, 4])?);
+    /// assert_eq!([0, 1].map(|k| cells.area(VertexId::new(k))), [12.0, 4.0]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn power(&self) -> Power2<'_> {
         Power2 { triangulation: self }
     }

@@ -64,6 +64,15 @@ impl Cells2 {
     }
 
     /// See [`Cell2::perimeter`].
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[1, 1], [3, 1]])?;
+    /// let cells = d.voronoi().clip(&Region2::rectangle([0, 0], [4, 4])?);
+    /// assert_eq!(cells.perimeter(VertexId::new(0)), 12.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn perimeter(&self, site: VertexId) -> f64 {
         self.cell(site).perimeter()
     }
@@ -74,6 +83,15 @@ impl Cells2 {
     }
 
     /// See [`Cell2::centroid`].
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[1, 1], [3, 1]])?;
+    /// let cells = d.voronoi().clip(&Region2::rectangle([0, 0], [4, 4])?);
+    /// assert_eq!(cells.centroid(VertexId::new(0)), Some([1.0, 2.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn centroid(&self, site: VertexId) -> Option<[f64; 2]> {
         self.cell(site).centroid()
     }

@@ -26,6 +26,16 @@ pub(super) const PREFETCH_DISTANCE: usize = 16;
 
 impl Voronoi2<'_> {
     /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[1, 1], [3, 1]])?;
+    /// let cells = d.voronoi().clip(&Region2::rectangle([0, 0], [4, 3])?);
+    /// assert_eq!(d.vertices().map(|v| cells.area(v)).collect::<Vec<_>>(), [6.0, 6.0]);
+    /// assert_eq!(cells.rings(VertexId::new(0)).next().map(|ring| ring.points().count()), Some(4));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias = "voronoi_finite_polygons")]
     pub fn clip(self, region: &Region2) -> Cells2 {
         self.clip_with(region, |_| {})

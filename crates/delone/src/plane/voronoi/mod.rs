@@ -79,6 +79,14 @@ pub enum VoronoiEdge2 {
 
 impl Delaunay2 {
     /// The Voronoi diagram of the vertices.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 2]])?;
+    /// assert_eq!(d.voronoi().vertices().collect::<Vec<_>>(), [Some([2.0, 1.0])]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn voronoi(&self) -> Voronoi2<'_> {
         Voronoi2 { triangulation: self }
     }
@@ -103,6 +111,16 @@ impl<'a> Voronoi2<'a> {
     }
 
     /// The Voronoi edge between the sites of a finite Delaunay edge.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VoronoiEdge2};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [0, 2]])?;
+    /// let edges: Vec<_> = d.mesh().undirected_edges().map(|e| d.voronoi().edge(e)).collect();
+    /// assert_eq!(edges.len(), 3);
+    /// assert!(edges.iter().all(|edge| matches!(edge, VoronoiEdge2::Ray { from: [2.0, 1.0], .. })));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn edge(self, e: EdgeId) -> VoronoiEdge2 {
         let mesh = self.triangulation.mesh();
         let [a, b] = self.triangulation.segment(e);
@@ -140,6 +158,14 @@ impl<'a> Voronoi2<'a> {
     }
 
     /// Whether the cell of a vertex is bounded: it is for vertices that are not on the hull.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]])?;
+    /// assert!(d.voronoi().is_bounded(VertexId::new(4)) && !d.voronoi().is_bounded(VertexId::new(0)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     pub fn is_bounded(self, site: VertexId) -> bool {
         let mesh = self.triangulation.mesh();
         let mut star = mesh.star(site).peekable();
@@ -148,6 +174,16 @@ impl<'a> Voronoi2<'a> {
 
     /// The corners of a cell, counter-clockwise; those of an unbounded cell from ray to ray, and without those too
     /// far away for `f64`. Corners that coincide because sites are on one circle appear once.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]])?;
+    /// let mut corners: Vec<_> = d.voronoi().corners(VertexId::new(4)).collect();
+    /// corners.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    /// assert_eq!(corners, [[0.0, 2.0], [2.0, 0.0], [2.0, 4.0], [4.0, 2.0]]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("voronoi_face", "point_region"))]
     pub fn corners(self, site: VertexId) -> impl Iterator<Item = [f64; 2]> + 'a {
         let mesh = self.triangulation.mesh();
@@ -159,6 +195,14 @@ impl<'a> Voronoi2<'a> {
     }
 
     /// The sites whose cells share more than a point with a cell, counter-clockwise.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?; // four cells meet in a point
+    /// assert!((0..4).all(|k| d.voronoi().neighbors(VertexId::new(k)).count() == 2));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("neighbours", "ridge_points"))]
     pub fn neighbors(self, site: VertexId) -> impl Iterator<Item = VertexId> + 'a {
         let mesh = self.triangulation.mesh();

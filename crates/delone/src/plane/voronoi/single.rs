@@ -20,6 +20,15 @@ impl Voronoi2<'_> {
     ///
     /// O(d^2) for a vertex with d neighbors that have as many. All cells are clipped where rounding has turned a ring near by over,
     /// because then corners are moved that cells share.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2, VertexId};
+    ///
+    /// let d = Delaunay2::from_points(&[[1, 1], [3, 1]])?;
+    /// let rings = d.voronoi().cell(VertexId::new(1), &Region2::rectangle([0, 0], [4, 3])?);
+    /// assert_eq!((rings.len(), rings[0].len()), (1, 4));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[doc(alias("voronoi_face", "region"))]
     pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
