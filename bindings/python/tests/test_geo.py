@@ -179,3 +179,12 @@ def test_regions_in_another_system_are_told():
         warnings.simplefilter("error")
         delone.geo.voronoi(frame(), geopandas.GeoSeries([far], crs=25832))  # somebody says so
         delone.geo.voronoi(frame(), (0.2, 0.2, 0.8, 0.8))
+
+
+def test_what_is_no_region_is_told():
+    with pytest.raises(TypeError, match="the name of a file"):
+        delone.geo.voronoi(frame(), "country.gpkg")
+    with pytest.raises(ValueError, match="not 40; rows are points, so transpose it"):
+        delone.Delaunay(SITES.T)
+    with pytest.raises(TypeError, match="is drawn, not ndarray"):
+        delone.plot(SITES)

@@ -46,7 +46,7 @@ export function numbers(values, what) {
 export function checkBounds(bounds) {
   const four = isArray(bounds) ? [0, 1, 2, 3].map((k) => number(bounds[k])) : [];
   const [xmin, ymin, xmax, ymax] = four;
-  if (!four.length || !four.every(Number.isFinite) || xmax < xmin || ymax < ymin) throw new DeloneError("bounds", "invalid bounds");
+  if (!four.length || !four.every(Number.isFinite) || xmax < xmin || ymax < ymin) throw new DeloneError("bounds", "invalid bounds: they are [xmin, ymin, xmax, ymax]");
   return four;
 }
 
@@ -89,9 +89,20 @@ export function flatCoordinates(coords) {
     const value = coords[i];
     if (typeof value === "number") flat[i] = value;
     else if (value == null) flat[i] = NaN;
-    else throw new DeloneError("not-a-number", `Expected coords to contain numbers: there is a ${typeof value} at ${i}.`, i >> 1);
+    else {
+      const help = typeof value === "object" ? " Delaunay.from takes points." : "";
+      throw new DeloneError("not-a-number", `Expected coords to contain numbers: number ${i} is of the type ${typeof value}.${help}`, i >> 1);
+    }
   }
   return flat;
+}
+
+/** Refuses a first point that `[x, y]` surely is not. */
+function checkKind(point) {
+  if (typeof point === "number") throw new DeloneError("input", "points are arrays of two numbers; new Delaunay takes a flat array", 0);
+  if (point !== null && typeof point === "object" && !(0 in point) && "x" in point) {
+    throw new DeloneError("input", "coordinates of objects are told by functions: from(points, (p) => p.x, (p) => p.y)", 0);
+  }
 }
 
 /**
@@ -101,6 +112,7 @@ export function flatCoordinates(coords) {
 export function flattened(points, x, y, that, isByIndex = x !== pointX) {
   if (points == null) throw new DeloneError("input", "there are no points");
   for (const f of [x, y]) if (typeof f !== "function") throw new DeloneError("input", "coordinates are told by functions");
+  if (x === pointX) checkKind(points[0]);
   if ("length" in Object(points)) {
     const length = isByIndex ? checkLength(points.length, 1) : lengthOf(points, 1);
     const flat = new Float64Array(2 * length);

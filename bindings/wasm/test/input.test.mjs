@@ -56,6 +56,11 @@ test("refused: points that are none", () => {
     fails("input", undefined, () => Class.from({length: 5e8}));
   }
   fails("input", undefined, () => Delaunay.from({}));
+  // What other libraries take is named.
+  assert.throws(() => Delaunay.from([0, 0, 1, 0, 0, 1]), /new Delaunay takes a flat array/);
+  assert.throws(() => Delaunay.from([{x: 0, y: 0}, {x: 1, y: 0}]), /from\(points, \(p\) => p\.x, \(p\) => p\.y\)/);
+  assert.throws(() => new Delaunay([[0, 0], [1, 0]]), /Delaunay\.from takes points/);
+  assert.throws(() => Delaunay.from([[0, 0]]).voronoi(800, 600), /\[xmin, ymin, xmax, ymax\]/);
 });
 
 test("text that says a number is one, as in d3; what is empty is not", () => {

@@ -37,7 +37,9 @@ def plot(what: Delaunay | ConstrainedDelaunay | Mesh | Voronoi | ConvexHull | Al
     from ._voronoi import Voronoi
 
     if not isinstance(what, (Delaunay, ConstrainedDelaunay, Mesh, Voronoi, ConvexHull, AlphaComplex)):
-        raise TypeError(f"a Delaunay, ConstrainedDelaunay, Mesh, Voronoi, ConvexHull or AlphaComplex is drawn, not {what!r}")
+        raise TypeError(
+            f"a Delaunay, ConstrainedDelaunay, Mesh, Voronoi, ConvexHull or AlphaComplex is drawn, not {type(what).__name__}"
+        )
     if not isinstance(what, (Mesh, Voronoi)) and what.ndim == 3:
         from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 

@@ -73,7 +73,8 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
     if array.ndim != 2:
         raise ShapeError(f"{what} must have the shape (n, 2) or (n, 3), not {array.shape} of {array.ndim} dimensions")
     if columns is None and array.shape[1] not in (2, 3):
-        raise ValueError(f"{what} must have 2 or 3 coordinates each, not {array.shape[1]}")
+        turned = "; rows are points, so transpose it" if array.shape[0] in (2, 3) and array.shape[1] > 3 else ""
+        raise ValueError(f"{what} must have 2 or 3 coordinates each, not {array.shape[1]}{turned}")
     if columns is not None and array.shape[1] != columns:
         raise ValueError(f"{what} must have {columns} coordinates each, not {array.shape[1]}")
     if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:

@@ -8,6 +8,7 @@ Needs geopandas and shapely.
 
 from __future__ import annotations
 
+import os
 import warnings
 from typing import Any
 
@@ -59,6 +60,8 @@ def voronoi(sites: Any, region: Any = None, *, merge: float | str | None = None)
     >>> cells.name.tolist(), cells.area.tolist(), cells.crs.to_epsg()
     (['A', 'B'], [4.0, 4.0], 25832)
     """
+    if isinstance(region, (str, os.PathLike)):
+        raise TypeError("region must be geometries or a box, not the name of a file: geopandas.read_file reads it")
     column = _column(sites, "sites")
     theirs = system_of(region)
     if column.crs is not None and theirs is not None and theirs != column.crs:
