@@ -13,6 +13,18 @@ pub(crate) fn is_polygon(args: &VoronoiArgs) -> bool {
     !["box", "hull"].map(Path::new).contains(&args.clip.as_path())
 }
 
+/// Refuses a box in the place of the name of a file.
+pub(crate) fn refuse_numbers(args: &VoronoiArgs) -> Result<(), Failure> {
+    let Some(text) = args.clip.to_str() else { return Ok(()) };
+    if text.contains(',') && text.split(',').all(|number| number.trim().parse::<f64>().is_ok()) {
+        return Err(Failure::usage(
+            format!("--clip takes box, hull or a file, not the numbers {text}"),
+            format!("give the box as --box {text}"),
+        ));
+    }
+    Ok(())
+}
+
 /// The polygons to clip to.
 pub(crate) fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Result<Region2, Failure> {
     Region2::polygon(rings).map_err(|error| {

@@ -67,7 +67,7 @@ fn plane(
     if let Some((path, _)) = outputs.iter().find(|(_, format)| !is_list(*format)) {
         return Err(Failure::usage(
             format!("{}: a hull in the plane is a list of corners, written as npy or csv", path.display()),
-            "choose one of these, or give --dim 3; delone draw makes pictures with the hull",
+            "choose one of these, or give --dim 3; delone alpha --alpha inf writes it as a polygon, delone draw as a picture",
         ));
     }
     let (points, _) = room::read::<Delaunay2>(&args.input, quiet)?;

@@ -56,7 +56,7 @@ mod weighted;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use delone::{Delaunay2, Delaunay3};
 
 use args::{Cli, Command, RunArgs};
@@ -78,7 +78,7 @@ macro_rules! in_room {
 pub fn run() -> ExitCode {
     let Cli { run, mut command } = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return message::usage(&error, "delone"),
+        Err(error) => return message::usage(&error, "delone", &Cli::command()),
     };
     let quiet = run.quiet;
     start(&run);

@@ -16,8 +16,22 @@ use crate::closed;
 /// Commands that `delone-lab` has.
 const OF_THE_LAB: [&str; 4] = ["animate", "experiment", "reduce", "replay"];
 
-/// What other programs call `--dim 3`.
-const SPACE: [&str; 3] = ["-3", "--3d", "--3D"];
+/// What other programs call commands and options of this one.
+const ELSEWHERE: [(&str, &str); 13] = [
+    ("-3", "--dim 3"),
+    ("--3d", "--dim 3"),
+    ("--3D", "--dim 3"),
+    ("--crs", "--epsg"),
+    ("--srs", "--epsg"),
+    ("--resolution", "--cell"),
+    ("convex-hull", "hull"),
+    ("delaunay", "triangulate"),
+    ("dem", "dtm"),
+    ("hillshade", "relief"),
+    ("slope", "relief"),
+    ("thiessen", "voronoi"),
+    ("tin", "triangulate"),
+];
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -128,7 +142,7 @@ fn one_line(text: &str) -> String {
 }
 
 /// Prints help and version where they were asked for, and a usage error of a program in one line otherwise.
-pub fn usage(error: &clap::Error, program: &str) -> ExitCode {
+pub fn usage(error: &clap::Error, program: &str, command: &clap::Command) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         return match closed::check().and_then(|()| error.print()) {
             Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => unanswered(&error).report(),
@@ -145,22 +159,31 @@ pub fn usage(error: &clap::Error, program: &str) -> ExitCode {
     let message = message
         .replace("invalid float literal", "not a number")
         .replace("invalid digit found in string", "not a whole number");
+    let named = |kind: ContextKind| match error.get(kind) {
+        Some(ContextValue::String(name)) => Some(name.as_str()),
+        Some(ContextValue::Strings(names)) => names.first().map(String::as_str),
+        _ => None,
+    };
+    let unknown = named(ContextKind::InvalidSubcommand).or_else(|| named(ContextKind::InvalidArg));
+    let is_here = |name: &&str| name.starts_with('-') || command.find_subcommand(name).is_some();
+    let known = ELSEWHERE.iter().find(|entry| Some(entry.0) == unknown).map(|entry| entry.1).filter(is_here);
     let suggestion =
         [ContextKind::SuggestedArg, ContextKind::SuggestedValue, ContextKind::SuggestedSubcommand]
             .into_iter()
-            .find_map(|kind| match error.get(kind) {
-                Some(ContextValue::String(name)) => Some(name.clone()),
-                Some(ContextValue::Strings(names)) => names.first().cloned(),
-                _ => None,
-            });
-    let names = |option: &str| matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(name)) if name == option);
-    let help = match (error.get(ContextKind::InvalidSubcommand), suggestion) {
-        (Some(ContextValue::String(name)), _) if OF_THE_LAB.contains(&name.as_str()) => {
+            .find_map(named);
+    let mut words = std::env::args_os().skip(1).filter_map(|word| word.into_string().ok());
+    let called = words.find(|word| command.find_subcommand(word).is_some());
+    let see = match called {
+        Some(name) => format!("see {program} {name} --help"),
+        None => format!("see {program} --help, or {program} COMMAND --help"),
+    };
+    let help = match (unknown, known.or(suggestion)) {
+        (Some(name), _) if OF_THE_LAB.contains(&name) => {
             format!("{name} is a command of delone-lab: cargo install --locked --path crates/lab")
         }
-        _ if SPACE.iter().any(|option| names(option)) => "--dim 3 is for points in space".to_owned(),
-        (_, Some(name)) => format!("did you mean {name}? see {program} --help"),
-        (_, None) => format!("see {program} --help, or {program} COMMAND --help"),
+        (_, Some(name)) => format!("did you mean {name}? {see}"),
+        (Some(name), None) if name.starts_with("--output") => format!("name the output with -o FILE; {see}"),
+        (_, None) => see,
     };
     Failure::usage(message, help).report()
 }

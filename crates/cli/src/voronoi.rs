@@ -6,7 +6,7 @@ use delone::{Delaunay2, Relaxation2};
 use delone_io::{Contents, Diagram};
 
 use crate::args::VoronoiArgs;
-use crate::clip::{is_polygon, merge, not_merged, polygon_region, region};
+use crate::clip::{is_polygon, merge, not_merged, polygon_region, refuse_numbers, region};
 use crate::files;
 use crate::message::Failure;
 use crate::orders;
@@ -17,6 +17,7 @@ use crate::sites;
 use crate::stats::Stats;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
+    refuse_numbers(args)?;
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {

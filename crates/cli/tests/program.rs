@@ -265,8 +265,19 @@ fn wrong_usage() {
     place.file("p.svg", "");
     place.fail("triangulate p.svg -o m.ply", 2, "points are not read");
     for (line, help) in [
-        ("triangulate p.csv -o m.ply --3d", "help: --dim 3 is for points in space"),
-        ("triangulate p.csv -o m.ply -3", "help: --dim 3 is for points in space"),
+        ("triangulate p.csv -o m.ply --3d", "help: did you mean --dim 3? see delone triangulate --help"),
+        ("triangulate p.csv -o m.ply -3", "help: did you mean --dim 3? see delone triangulate --help"),
+        ("thiessen p.csv", "help: did you mean voronoi? see delone --help, or delone COMMAND --help"),
+        ("dtm p.csv -o m.tif --resolution 2", "help: did you mean --cell? see delone dtm --help"),
+        ("triangulate p.csv m.ply", "help: name the output with -o FILE; see delone triangulate --help"),
+        ("contours p.csv -o c.gpkg --interval 5m", "help: see delone contours --help"),
+        ("animate p.csv", "delone-lab: cargo install --locked --path crates/lab"),
+        ("voronoi p.csv -o c.kml", "as an output write gpkg, and convert that"),
+        ("voronoi p.csv --clip 0,0,9,9 -o c.csv", "help: give the box as --box 0,0,9,9"),
+        (
+            "hull p.csv -o h.geojson",
+            "delone alpha --alpha inf writes it as a polygon, delone draw as a picture",
+        ),
         ("relief p.csv -o shade.png", "; delone dtm makes one of points with heights"),
     ] {
         let output = place.run(line);

@@ -172,7 +172,9 @@ impl Error {
                 "read the points from the .node file of the same name, or put them into this file"
             }
             Self::UnknownExtension(name) if is_of_others(name) => {
-                return Cow::Owned(format!("convert it with ogr2ogr -f GPKG out.gpkg {name}"));
+                return Cow::Owned(format!(
+                    "convert it with ogr2ogr -f GPKG out.gpkg {name}; as an output write gpkg, and convert that"
+                ));
             }
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::LeftOut { .. } => {

@@ -164,7 +164,9 @@ fn errors_name_what_holds_it() {
 #[test]
 fn formats_of_others_are_converted() {
     let help = |name: &str| Format::of(Path::new(name)).expect_err("no format").help().into_owned();
-    assert_eq!(help("maps/a.KML"), "convert it with ogr2ogr -f GPKG out.gpkg maps/a.KML");
+    let expected =
+        "convert it with ogr2ogr -f GPKG out.gpkg maps/a.KML; as an output write gpkg, and convert that";
+    assert_eq!(help("maps/a.KML"), expected);
     assert!(help("a.gdb").starts_with("convert it"));
     assert_eq!(help("a.what"), "name the format with --from or --to");
     assert_eq!("kml".parse::<Format>().expect_err("none").help(), "name the format with --from or --to");

@@ -8,7 +8,7 @@ mod replay;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use delone::{Delaunay2, Delaunay3};
 use delone_cli::{finish, folders, message, start};
 
@@ -17,7 +17,7 @@ use args::{Cli, Command};
 fn main() -> ExitCode {
     let Cli { run, mut command } = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return message::usage(&error, "delone-lab"),
+        Err(error) => return message::usage(&error, "delone-lab", &Cli::command()),
     };
     let quiet = run.quiet;
     start(&run);
