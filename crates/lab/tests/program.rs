@@ -16,5 +16,5 @@ fn wrong_usage_names_this_program() {
     let place = Place::new();
     place.fail("triangulate p.csv -o m.ply", 2, "triangulate");
     let told = text(&place.run("replay --frobnicate").stderr);
-    assert!(told.contains("see delone-lab --help"), "{told}");
+    assert!(told.contains("see delone-lab replay --help"), "{told}");
 }
