@@ -20,6 +20,7 @@ mod mesh;
 mod near;
 mod neighbors;
 mod orders;
+mod periodic;
 mod polygons;
 mod pool;
 mod powers;
@@ -47,6 +48,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<mesh::Mesh>()?;
     m.add_class::<regular::Regular>()?;
     m.add_class::<orders::Orders>()?;
+    m.add_class::<periodic::PyPeriodic>()?;
     m.add_class::<neighbors::Neighbors>()?;
     m.add_class::<tiles::PyCuts>()?;
     m.add_class::<store::PyStore>()?;

@@ -159,8 +159,8 @@ pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
 pub use parallel::share_work_from;
 pub use periodic::{
-    CellularKind, Grid, Image, Lattice, Lattice2, Lattice3, Periodic, Periodic2, Periodic3, PeriodicCell3,
-    PeriodicCells3, PeriodicFace3, PeriodicKind, PeriodicRegular2, PeriodicRegular3,
+    AcrossPeriodic3, CellularKind, Grid, Image, Lattice, Lattice2, Lattice3, Periodic, Periodic2, Periodic3,
+    PeriodicCell3, PeriodicCells3, PeriodicFace3, PeriodicKind, PeriodicRegular2, PeriodicRegular3,
 };
 pub use plane::check::Flaw2;
 pub use plane::{

@@ -19,6 +19,7 @@ delone.NaturalNeighborInterpolator(points, values)(x, y)
 delone.rasterize(points, z, cell=1.0), delone.contours(points, z, interval=10), delone.simplify(points, z, max_error=0.5)
 delone.dtm("tile.laz", cell=1.0, output="dem.tif")                                  # terrain models of files or arrays
 delone.tiles.triangulate(points, region), delone.dask.triangulate(array)       # more points than memory
+delone.Periodic(points, box=[10, 10, 10]).volumes                               # a box that repeats
 delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
 
@@ -43,6 +44,7 @@ from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeigh
 from ._mesh import Mesh, MeshReport, mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
+from ._periodic import Periodic
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
 from ._regular import PowerDiagram, RegularTriangulation
@@ -70,6 +72,7 @@ __all__ = [
     "NaturalNeighborInterpolator",
     "Neighbors",
     "OrderVoronoi",
+    "Periodic",
     "PolygonTriangles",
     "PowerDiagram",
     "QhullError",

@@ -22,6 +22,7 @@ __all__ = [
     "Mesh",
     "Neighbors",
     "Orders",
+    "Periodic",
     "Regular",
     "Store",
     "Triangulation",
@@ -107,6 +108,35 @@ class Neighbors:
         self, points: NDArray[np.float64], queries: NDArray[np.float64], k: int
     ) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
     def within(self, queries: NDArray[np.float64], radius: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+
+@final
+class Periodic:
+    """Points, weights unless all are equal, axes, which of them repeat, and the step of a decimal grid: none, 0 for one to be found."""
+
+    def __new__(
+        cls,
+        points: NDArray[np.float64],
+        weights: NDArray[np.float64] | None,
+        axes: NDArray[np.float64],
+        periodic: Sequence[bool],
+        step: float | None,
+    ) -> Periodic: ...
+    def arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int32], NDArray[np.int64]]: ...
+    def edges(self) -> tuple[NDArray[np.int32], NDArray[np.int64]]: ...
+    def duplicates(self) -> tuple[NDArray[np.int32], NDArray[np.int64]]: ...
+    def hidden(self) -> NDArray[np.int32]: ...
+    def is_simplicial(self) -> bool: ...
+    def facts(self) -> tuple[float, float | None, int]: ...
+    def cells(
+        self,
+    ) -> tuple[
+        tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+        NDArray[np.int64],
+        tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]],
+    ]: ...
+    def polyhedra(
+        self,
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
 
 @final
 class Regular:

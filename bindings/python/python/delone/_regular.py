@@ -15,17 +15,19 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-def _as_weights(weights: ArrayLike | None, count: int) -> NDArray[np.float64]:
+def as_weights(
+    weights: ArrayLike | None, count: int, what: str = "weights", one: str = "weight"
+) -> NDArray[np.float64]:
     """One finite float64 for each point."""
     if weights is None:
         return np.zeros(count)
-    array = as_numbers(weights, "weights")
+    array = as_numbers(weights, what)
     if array.shape != (count,):
-        raise ValueError(f"weights must have the shape ({count},), one for each point, not {array.shape}")
+        raise ValueError(f"{what} must have the shape ({count},), one for each point, not {array.shape}")
     result: NDArray[np.float64] = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     if not np.isfinite(result).all():
         row = int(np.argmin(np.isfinite(result)))
-        raise ValueError(f"weights: point {row} has the weight {array[row]}, which is not finite")
+        raise ValueError(f"{what}: point {row} has the {one} {array[row]}, which is not finite")
     return result
 
 
@@ -70,7 +72,7 @@ class RegularTriangulation(Kept):
     def __init__(self, points: ArrayLike, weights: ArrayLike | None = None) -> None:
         """Triangulates points with weights."""
         self._points = np.array(as_points(points), order="C")
-        self._core = _delone.Regular(self._points, _as_weights(weights, len(self._points)).copy())
+        self._core = _delone.Regular(self._points, as_weights(weights, len(self._points)).copy())
         self._cache = {}
 
     _core: _delone.Regular
@@ -141,7 +143,7 @@ class RegularTriangulation(Kept):
 
         Ctrl-C ends the wait, not the change: whoever asks next waits for its end.
         """
-        new = _as_weights(weights, len(self._points)).copy()
+        new = as_weights(weights, len(self._points)).copy()
         self._forget()
         self._core.set_weights(new)
 

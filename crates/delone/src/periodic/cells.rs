@@ -6,12 +6,14 @@
 //! Cost: that of the cells of as many sites without a lattice; O(k) for what is asked of a cell with k corners.
 
 use super::kinds::CellularKind;
+use super::walls::{Side, Walls};
 use super::{Image, Periodic, Wrapped};
+use crate::error::Error;
 use crate::ids::VertexId;
-use crate::space::{Cell3, Cells3, Face3};
+use crate::space::{Across3, Cell3, Cells3, Face3};
 
-/// The cells of a triangulation of space that repeats along all axes: convex polyhedra around the sites, which together with their copies tile
-/// space. Volumes add up to that of the box. See [`Cells3`] for bounds.
+/// The cells of a triangulation of space that repeats: convex polyhedra around the sites, which together with their copies tile space, or as far as the
+/// walls along axes that do not repeat. Volumes add up to that of the box. See [`Cells3`] for bounds.
 ///
 /// ```
 /// use delone::{Lattice3, Periodic3};
@@ -19,11 +21,11 @@ use crate::space::{Cell3, Cells3, Face3};
 /// // Body-centered: each cell has 14 faces, six squares towards its own copies.
 /// let cube = Lattice3::with_sides([2.0, 2.0, 2.0])?;
 /// let crystal = Periodic3::from_points(&[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], &cube)?;
-/// let cells = crystal.cells();
+/// let cells = crystal.cells()?;
 /// for site in crystal.vertices() {
 ///     let cell = cells.cell(site);
 ///     assert_eq!((cell.volume(), cell.faces().count()), (4.0, 14));
-///     let own = cell.faces().filter(|face| face.neighbor().0 == site);
+///     let own = cell.faces().filter(|face| face.neighbor().is_some_and(|(other, _)| other == site));
 ///     assert!(own.clone().all(|face| face.area() == 0.5));
 ///     assert_eq!(own.count(), 6);
 /// }
@@ -33,6 +35,8 @@ use crate::space::{Cell3, Cells3, Face3};
 pub struct PeriodicCells3<'a, T: CellularKind> {
     triangulation: &'a Periodic<T, 3, 4>,
     cells: Cells3,
+    /// Which side of the box each wall is.
+    sides: Vec<Option<Side>>,
 }
 
 /// A cell around a site, where that was given.
@@ -40,11 +44,25 @@ pub struct PeriodicCells3<'a, T: CellularKind> {
 pub struct PeriodicCell3<'a, T: CellularKind> {
     triangulation: &'a Periodic<T, 3, 4>,
     cell: Cell3<'a>,
-    vertices: &'a [[f64; 3]],
+    of: &'a PeriodicCells3<'a, T>,
     site: VertexId,
 }
 
-/// A face of a cell: a convex polygon, which a copy of a site is beyond.
+/// What is beyond a face of a cell. There is no third, so a match may name both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AcrossPeriodic3 {
+    /// The cell of this copy of a site.
+    Site(Image<3>),
+    /// A wall of the box.
+    Wall {
+        /// The axis, along which the box does not repeat.
+        axis: usize,
+        /// Whether it is at the end of the axis, and not at its beginning.
+        is_end: bool,
+    },
+}
+
+/// A face of a cell: a convex polygon.
 #[derive(Debug)]
 pub struct PeriodicFace3<'a, T: CellularKind> {
     of: PeriodicCell3<'a, T>,
@@ -69,21 +87,31 @@ impl<T: CellularKind> Clone for PeriodicFace3<'_, T> {
 impl<T: CellularKind> Copy for PeriodicFace3<'_, T> {}
 
 impl<T: CellularKind> Periodic<T, 3, 4> {
-    /// The cells of all sites: without faces for duplicates and hidden sites, and for cells that are not bounded, which there are only if the lattice
-    /// does not repeat along all axes. On all threads of rayon's pool where that pays; the result is the same to the bit.
+    /// The cells of all sites: without faces for duplicates, for hidden sites, and for those whose cell is beyond the walls. On all threads of
+    /// rayon's pool where that pays; the result is the same to the bit.
+    ///
+    /// # Errors
+    /// [`Error::Lattice`] for an axis along which the box does not repeat, and that is no axis of a box.
     #[doc(alias("compute_voronoi", "container_periodic"))]
-    pub fn cells(&self) -> PeriodicCells3<'_, T> {
+    pub fn cells(&self) -> Result<PeriodicCells3<'_, T>, Error> {
+        let walls = Walls::of(&self.lattice)?;
+        let region = walls.as_ref().map(|walls| &walls.region);
         let sites = self.wrapped.len();
-        PeriodicCells3 { triangulation: self, cells: self.quotient.copies.bounded_of(|v| v.index() < sites) }
+        let cells = self.quotient.copies.cells_of(region, |v| v.index() < sites);
+        Ok(PeriodicCells3 {
+            triangulation: self,
+            cells,
+            sides: walls.map_or(Vec::new(), |walls| walls.sides),
+        })
     }
 }
 
-impl<T: CellularKind> PeriodicCells3<'_, T> {
+impl<'a, T: CellularKind> PeriodicCells3<'a, T> {
     /// The cell of a site; without faces for an id that is no vertex.
-    pub fn cell(&self, site: VertexId) -> PeriodicCell3<'_, T> {
+    pub fn cell(&'a self, site: VertexId) -> PeriodicCell3<'a, T> {
         let is_site = site.index() < self.triangulation.wrapped.len();
         let cell = self.cells.cell(if is_site { site } else { VertexId::GHOST });
-        PeriodicCell3 { triangulation: self.triangulation, cell, vertices: self.cells.vertices(), site }
+        PeriodicCell3 { triangulation: self.triangulation, cell, of: self, site }
     }
 }
 
@@ -111,7 +139,7 @@ impl<'a, T: CellularKind> PeriodicCell3<'a, T> {
 
     /// Its corners, each once: what [`Self::rings`] numbers.
     pub fn corners(self) -> impl Iterator<Item = [f64; 3]> + 'a {
-        self.numbers().into_iter().map(move |i| self.moved(self.vertices[i as usize]))
+        self.numbers().into_iter().map(move |i| self.moved(self.of.cells.vertices()[i as usize]))
     }
 
     /// The indices of its corners, increasing.
@@ -138,11 +166,27 @@ impl<'a, T: CellularKind> PeriodicCell3<'a, T> {
 }
 
 impl<T: CellularKind> PeriodicFace3<'_, T> {
-    /// The copy of a site that is beyond it, seen from the site as it was given.
-    pub fn neighbor(self) -> Image<3> {
-        let PeriodicCell3 { triangulation, site, .. } = self.of;
-        let beyond = self.face.neighbor().map_or(0, VertexId::index);
-        triangulation.image(triangulation.quotient.image(beyond), triangulation.wrapped[site.index()].offset)
+    /// What is beyond it.
+    pub fn across(self) -> AcrossPeriodic3 {
+        let PeriodicCell3 { triangulation, site, of, .. } = self.of;
+        match self.face.across() {
+            Across3::Site(v) => {
+                let seen_from = triangulation.wrapped[site.index()].offset;
+                AcrossPeriodic3::Site(triangulation.image(triangulation.quotient.image(v.index()), seen_from))
+            }
+            Across3::Wall(k) => {
+                let (axis, is_end) = of.sides.get(k).copied().flatten().unwrap_or_default();
+                AcrossPeriodic3::Wall { axis, is_end }
+            }
+        }
+    }
+
+    /// The copy of a site that is beyond it, seen from the site as it was given; none beyond walls.
+    pub fn neighbor(self) -> Option<Image<3>> {
+        match self.across() {
+            AcrossPeriodic3::Site(image) => Some(image),
+            AcrossPeriodic3::Wall { .. } => None,
+        }
     }
 
     /// Its corners, counter-clockwise seen from outside of the cell.
@@ -156,14 +200,18 @@ impl<T: CellularKind> PeriodicFace3<'_, T> {
         self.face.area() * length * length
     }
 
-    /// From the site to the copy beyond, in coordinate units, rounded: normal to the face.
-    pub fn vector(self) -> [f64; 3] {
+    /// The outward normal, of length one; none if the rounded corners have no area, see [`Face3::normal`].
+    pub fn normal(self) -> Option<[f64; 3]> {
+        self.face.normal()
+    }
+
+    /// From the site to the copy beyond, in coordinate units, rounded: normal to the face. None beyond walls.
+    pub fn vector(self) -> Option<[f64; 3]> {
         let PeriodicCell3 { triangulation, site, .. } = self.of;
-        let beyond = self.face.neighbor().map_or(0, VertexId::index);
-        let (other, offset) = triangulation.quotient.image(beyond);
+        let (other, offset) = triangulation.quotient.image(self.face.neighbor()?.index());
         let lattice = &triangulation.lattice;
         let there = lattice.moved(&triangulation.wrapped[other as usize].place, offset);
         let here = triangulation.wrapped[site.index()].place;
-        std::array::from_fn(|k| lattice.length(there[k] - here[k]))
+        Some(std::array::from_fn(|k| lattice.length(there[k] - here[k])))
     }
 }

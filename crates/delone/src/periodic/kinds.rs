@@ -5,7 +5,7 @@ use delone_predicates::{orient2d, orient3d};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, MAX_POINTS_IN_SPACE, VertexId};
 use crate::plane::{Delaunay2, Regular2};
-use crate::space::{Cells3, Delaunay3, Regular3};
+use crate::space::{Cells3, Delaunay3, Region3, Regular3};
 use crate::triangulation::Triangulation;
 
 /// A kind of triangulation that has a periodic form, [`crate::Periodic`]: of D coordinates, with N corners a simplex.
@@ -29,20 +29,32 @@ pub trait PeriodicKind<const D: usize, const N: usize>:
 
 /// A kind of triangulation of space whose periodic form has cells: [`Delaunay3`] and [`Regular3`].
 pub trait CellularKind: PeriodicKind<3, 4> {
-    /// The cells of some of the vertices that are bounded.
+    /// The cells of some of the vertices: clipped, or those that are bounded.
     #[doc(hidden)]
-    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3;
+    fn cells_of(
+        &self,
+        region: Option<&Region3>,
+        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+    ) -> Cells3;
 }
 
 impl CellularKind for Delaunay3 {
-    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
-        self.voronoi().bounded_of(is_wanted)
+    fn cells_of(
+        &self,
+        region: Option<&Region3>,
+        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+    ) -> Cells3 {
+        self.voronoi().cells_of(region, is_wanted)
     }
 }
 
 impl CellularKind for Regular3 {
-    fn bounded_of(&self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
-        self.power().bounded_of(is_wanted)
+    fn cells_of(
+        &self,
+        region: Option<&Region3>,
+        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+    ) -> Cells3 {
+        self.power().cells_of(region, is_wanted)
     }
 }
 

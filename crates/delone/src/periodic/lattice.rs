@@ -36,6 +36,7 @@ pub enum Grid {
 pub struct Lattice<const D: usize> {
     axes: [[f64; D]; D],
     periodic: [bool; D],
+    origin: [f64; D],
     grid: Grid,
 }
 
@@ -67,15 +68,22 @@ impl<const D: usize> Lattice<D> {
     /// [`Error::Lattice`] for numbers that are not finite or out of this range, for axes of which one is nearly a sum of multiples of the
     /// others, and for left-handed ones.
     pub fn with_axes(axes: [[f64; D]; D]) -> Result<Self, Error> {
-        let lattice = Self { axes, periodic: [true; D], grid: Grid::default() };
+        let lattice = Self { axes, periodic: [true; D], origin: [0.0; D], grid: Grid::default() };
         Basis::new(axes, [true; D])?;
         Ok(lattice)
     }
 
-    /// Along which axes it repeats. Along the others it is without bounds.
+    /// Along which axes it repeats. Triangulations are without bounds along the others, and cells end at the walls of the box.
     #[must_use]
     pub fn periodic(self, periodic: [bool; D]) -> Self {
         Self { periodic, ..self }
+    }
+
+    /// Where the box begins, which is the origin otherwise. It matters along axes along which the box does not repeat, for cells: there they
+    /// end at its walls.
+    #[must_use]
+    pub fn origin(self, origin: [f64; D]) -> Self {
+        Self { origin, ..self }
     }
 
     /// How coordinates are rounded.
@@ -112,10 +120,12 @@ impl<const D: usize> Lattice<D> {
         let decimal = self.decimal(points);
         let axes = self.axes.map(|axis| axis.map(|x| decimal.map_or(x, |grid| grid.index(x))));
         let basis = Basis::new(axes, self.periodic)?;
+        let beside = basis.beside(points.iter().map(|p| p.map(|x| decimal.map_or(x, |grid| grid.index(x)))));
         let mut steps = [None; D];
         for (axis, step) in steps.iter_mut().enumerate() {
             let reach = basis.reach(axis);
             if reach > 0.0 {
+                let reach = reach + beside[axis];
                 // All multiples up to the reach are numbers: the step is the least power of two for which they are.
                 let least = power_of_two_above(reach / MOST_EXACT);
                 *step = Some(if decimal.is_some() { least.max(1.0) } else { least });
@@ -123,7 +133,9 @@ impl<const D: usize> Lattice<D> {
         }
         let rounded = axes.map(|axis| std::array::from_fn(|k| in_steps(axis[k], steps[k]).unwrap_or(0)));
         let reduced = basis.on_grid(&rounded, &steps)?;
-        Ok(Prepared { decimal, steps, axes: rounded, reduced })
+        let origin = self.origin.map(|x| decimal.map_or(x, |grid| grid.index(x)));
+        let walled = std::array::from_fn(|axis| (!self.periodic[axis]).then_some(axes[axis]));
+        Ok(Prepared { decimal, steps, axes: rounded, reduced, origin, walled })
     }
 }
 
@@ -156,6 +168,9 @@ pub(super) struct Prepared<const D: usize> {
     axes: [[i128; D]; D],
     /// A basis of short vectors.
     pub reduced: Vec<Reduced<D>>,
+    pub origin: [f64; D],
+    /// The axes along which the box does not repeat, in units of places.
+    pub walled: [Option<[f64; D]>; D],
 }
 
 /// A site moved into the cell of the reduced basis at the origin.

@@ -22,8 +22,9 @@ mod kinds;
 mod lattice;
 mod quotient;
 mod reduced;
+mod walls;
 
-pub use cells::{PeriodicCell3, PeriodicCells3, PeriodicFace3};
+pub use cells::{AcrossPeriodic3, PeriodicCell3, PeriodicCells3, PeriodicFace3};
 pub use kinds::{CellularKind, PeriodicKind};
 pub use lattice::{Grid, Lattice, Lattice2, Lattice3};
 

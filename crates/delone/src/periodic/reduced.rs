@@ -42,6 +42,7 @@ impl<const D: usize> Reduced<D> {
 /// The vectors, before they are on a grid.
 pub(super) struct Basis<const D: usize> {
     vectors: Vec<([f64; D], [i64; D])>,
+    duals: Vec<[f64; D]>,
     widths: Vec<f64>,
     radius: f64,
 }
@@ -84,10 +85,32 @@ impl<const D: usize> Basis<D> {
                 return Err(Error::Lattice { axis: D - 1, problem: LatticeProblem::LeftHanded });
             }
         }
-        Ok(Self { vectors, widths, radius })
+        Ok(Self { vectors, duals, widths, radius })
     }
 
-    /// How far from zero a coordinate of a copy can be: in the cell at the origin, one period further, and in the widest halo.
+    /// How far the coordinates of points beside the span of the vectors can be from zero: of what is left without its parts along them. Nothing, if
+    /// they span all.
+    pub(super) fn beside(&self, points: impl Iterator<Item = [f64; D]>) -> [f64; D] {
+        /// Rounding errors of a point, in parts of its largest coordinate: far more than there are.
+        const ROUNDING: f64 = 1e-14;
+        let mut most = [0.0_f64; D];
+        if self.vectors.len() == D {
+            return most;
+        }
+        for p in points {
+            let largest = p.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let mut rest = p;
+            for ((vector, _), dual) in self.vectors.iter().zip(&self.duals) {
+                let part = dot(dual, &p);
+                rest = std::array::from_fn(|k| rest[k] - part * vector[k]);
+            }
+            most = std::array::from_fn(|k| most[k].max(rest[k].abs() + ROUNDING * largest));
+        }
+        most
+    }
+
+    /// How far from zero a coordinate of a copy can be: in the cell at the origin, one period further, and in the
+    /// widest halo; beside the span of the vectors [`Self::beside`] is to be added.
     pub(super) fn reach(&self, axis: usize) -> f64 {
         let halo = 2.0 * MORE * self.radius;
         let along = |i: usize| self.vectors[i].0[axis].abs() * (2.0 + halo / self.widths[i]);

@@ -71,12 +71,16 @@ impl<'a> Power3<'a> {
 
     /// The cells of all vertices that are not on the hull, as they are; see [`crate::Voronoi3::bounded`].
     pub fn bounded(self) -> Cells3 {
-        self.bounded_of(|_| true)
+        self.cells_of(None, |_| true)
     }
 
-    /// [`Self::bounded`], of some of the sites.
-    pub(crate) fn bounded_of(self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
-        clip::of_bounded(&self.triangulation.base, self.triangulation.ids_given(), is_wanted)
+    /// The cells of some of the sites, clipped; without a region those that are bounded.
+    pub(crate) fn cells_of(
+        self,
+        region: Option<&Region3>,
+        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+    ) -> Cells3 {
+        clip::of_wanted(&self.triangulation.base, self.triangulation.ids_given(), region, is_wanted)
     }
 
     /// Clips all cells to a region, and hands out one after the other, as [`crate::Voronoi3::clip_each`].

@@ -41,13 +41,17 @@ impl Voronoi3<'_> {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn bounded(self) -> Cells3 {
-        self.bounded_of(|_| true)
+        self.cells_of(None, |_| true)
     }
 
-    /// [`Self::bounded`], of some of the vertices.
-    pub(crate) fn bounded_of(self, is_wanted: impl Fn(VertexId) -> bool + Send + Sync) -> Cells3 {
+    /// The cells of some of the vertices, clipped; without a region those that are bounded.
+    pub(crate) fn cells_of(
+        self,
+        region: Option<&Region3>,
+        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
+    ) -> Cells3 {
         let layer = &self.triangulation().base;
-        of_bounded(layer, layer.mesh.names.given(), is_wanted)
+        of_wanted(layer, layer.mesh.names.given(), region, is_wanted)
     }
 
     /// Clips all cells to a region, and hands out one after the other. They come in the order of space, not of the ids, and nothing is
@@ -99,17 +103,22 @@ pub(in crate::space) fn each<W: Cellular>(
     );
 }
 
-/// The whole cells of wanted vertices that are bounded: those of others have no faces.
-pub(in crate::space) fn of_bounded<W: Cellular>(
+/// The cells of wanted vertices, clipped; without a region the whole ones that are bounded. Those of others have no faces.
+pub(in crate::space) fn of_wanted<W: Cellular>(
     layer: &Layer<W>,
     ids: usize,
+    region: Option<&Region3>,
     is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
 ) -> Cells3 {
     let is_wanted = |p: Place| is_wanted(layer.mesh.name(p));
-    let centers = Centers::of(layer, |corners| corners.into_iter().any(is_wanted), |_| true);
+    let centers = Centers::of(
+        layer,
+        |corners| corners.into_iter().any(is_wanted),
+        |p| region.is_none_or(|region| region.surely_holds(p)),
+    );
     let parts = parallel::map(parallel::ranges(layer.points.len()), |places| {
         let mut part = Part::new(centers.points.len());
-        Worker::new(layer, &centers, None).run(places, is_wanted, &mut part, |_, _| {});
+        Worker::new(layer, &centers, region).run(places, is_wanted, &mut part, |_, _| {});
         part
     });
     joined(centers, ids, parts)

@@ -1,0 +1,261 @@
+"""Triangulations and cells of points in a box that repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _delone
+from ._cached import cached_property
+from ._points import as_flag, as_numbers, as_points
+from ._regular import as_weights
+
+
+class Faces(NamedTuple):
+    """The faces of cells, as the rows of a sparse matrix: those of point i are ``indptr[i]:indptr[i + 1]``.
+
+    One entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to that,
+    `areas` its area, `vectors` goes from the point to the copy beyond. Both sides of a face have an entry; a point may be its own neighbor.
+    """
+
+    indptr: NDArray[np.int64]
+    indices: NDArray[np.int32]
+    offsets: NDArray[np.int64]
+    areas: NDArray[np.float64]
+    vectors: NDArray[np.float64]
+
+
+class Periodic:
+    """The triangulation of points and of all their copies in a box that repeats, in the plane or in space; in space also the cells.
+
+    It is exact, and does not depend on the order of the points, nor on where the box begins. One point is enough. Of the points only
+    their places in the box count: they may be outside of it, and offsets are seen from where they are.
+
+    Parameters
+    ----------
+    points : array_like of floats, shape (n, 2) or (n, 3)
+        The points. All must be finite.
+    box : array_like
+        The sides of a box; or in space six numbers (lx, ly, lz, xy, xz, yz), as LAMMPS has them for the axes (lx, 0, 0), (xy, ly, 0) and
+        (xz, yz, lz); or a matrix with an axis in each row, right-handed.
+    periodic : bool or sequence of bool
+        Along which axes the box repeats. Along others it has no bounds.
+    radii : array_like of floats, shape (n,), optional
+        Radii of balls: cells are power cells (radical, Laguerre) then, bounded by radical planes.
+    grid : "auto" or float, optional
+        A step that coordinates are multiples of: crystals of decimals are exact then. "auto" takes the decimals of points and box, if they
+        have any within rounding.
+
+    Attributes
+    ----------
+    simplices, offsets : arrays of shape (m, d + 1) and (m, d + 1, d)
+        The points that are corners, in positive order, and how often each axis of the box is added to them: corner k of simplex j is at
+        ``points[simplices[j, k]] + offsets[j, k] @ box``. Each simplex stands for all its copies.
+    neighbors, neighbor_offsets : arrays of shape (m, d + 1) and (m, d + 1, d)
+        The simplex across from each corner, -1 where the triangulation ends, and what is to be added to all its offsets.
+    edges, edge_offsets : arrays of shape (k, 2) and (k, d)
+        The edges, each once: from a point to a copy of the other one, or of itself.
+    duplicates, duplicate_offsets : arrays of shape (k, 2) and (k, d)
+        The points that equal a copy of another one, and that copy.
+    hidden : array
+        The points whose power cell is empty.
+    is_simplicial : bool
+        Whether points alone name the simplices: no simplex has a point twice, and no two have the same points.
+    volumes, areas : arrays of shape (n,)
+        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for duplicates
+        and hidden points, and for cells that are not bounded, which only a box has that does not repeat along all axes.
+    centroids : array of shape (n, 3)
+        The centers of mass of the cells; NaN for those without volume.
+    nlist : Faces
+        The faces of the cells, as rows of a sparse matrix.
+    rounding : float
+        By how much coordinates were rounded at most, so that copies are exact.
+    step : float or None
+        The step of the decimal grid, if there is one.
+
+    Raises
+    ------
+    TypeError, ValueError, MemoryError
+        What is wrong with points, box or radii, and where.
+
+    Examples
+    --------
+    >>> import delone
+    >>> import numpy as np
+    >>> p = delone.Periodic([[0, 0, 0], [1, 1, 1]], box=[2, 2, 2])
+    >>> p.volumes.tolist(), np.diff(p.nlist.indptr).tolist()
+    ([4.0, 4.0], [14, 14])
+    >>> p.is_simplicial, len(p.simplices)
+    (False, 12)
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        box: ArrayLike,
+        periodic: bool | Sequence[bool] = True,
+        radii: ArrayLike | None = None,
+        grid: str | float | None = None,
+    ) -> None:
+        """Triangulates points and their copies."""
+        self.points = np.array(as_points(points), order="C")
+        self.points.flags.writeable = False
+        self.npoints, self.ndim = self.points.shape
+        self.box = as_box(box, self.ndim)
+        self.periodic = as_axes(periodic, self.ndim)
+        weights = None if radii is None else _squares(radii, self.npoints)
+        self._core = _delone.Periodic(self.points, weights, self.box, self.periodic, as_step(grid))
+        self.rounding, self.step, self._span = self._core.facts()
+
+    @cached_property
+    def _arrays(self) -> tuple[NDArray[Any], ...]:
+        corners, offsets, neighbors, across = self._core.arrays()
+        shape = (-1, self.ndim + 1, self.ndim)
+        return corners, offsets.reshape(shape), neighbors, across.reshape(shape)
+
+    @property
+    def simplices(self) -> NDArray[np.int32]:
+        """The corners of the simplices."""
+        return self._arrays[0]
+
+    @property
+    def offsets(self) -> NDArray[np.int64]:
+        """The offsets of the corners."""
+        return self._arrays[1]
+
+    @property
+    def neighbors(self) -> NDArray[np.int32]:
+        """The simplices across from each corner."""
+        return self._arrays[2]
+
+    @property
+    def neighbor_offsets(self) -> NDArray[np.int64]:
+        """What is to be added to the offsets of neighbors."""
+        return self._arrays[3]
+
+    @cached_property
+    def _edges(self) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+        return self._core.edges()
+
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """The points that edges join."""
+        return self._edges[0]
+
+    @property
+    def edge_offsets(self) -> NDArray[np.int64]:
+        """The offsets of their second points."""
+        return self._edges[1]
+
+    @cached_property
+    def _duplicates(self) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+        return self._core.duplicates()
+
+    @property
+    def duplicates(self) -> NDArray[np.int32]:
+        """The points that equal a copy of another one, each with that."""
+        return self._duplicates[0]
+
+    @property
+    def duplicate_offsets(self) -> NDArray[np.int64]:
+        """The offsets of the copies that they equal."""
+        return self._duplicates[1]
+
+    @cached_property
+    def hidden(self) -> NDArray[np.int32]:
+        """The points whose power cell is empty."""
+        return self._core.hidden()
+
+    @cached_property
+    def is_simplicial(self) -> bool:
+        """Whether points alone name the simplices."""
+        return self._core.is_simplicial()
+
+    @cached_property
+    def _cells(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], Faces]:
+        (volumes, areas, centroids), indptr, (indices, offsets, face_areas, vectors) = self._core.cells()
+        return volumes, areas, centroids, Faces(indptr, indices, offsets, face_areas, vectors)
+
+    @property
+    def volumes(self) -> NDArray[np.float64]:
+        """The volumes of the cells."""
+        return self._cells[0]
+
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """The areas of their surfaces."""
+        return self._cells[1]
+
+    @property
+    def centroids(self) -> NDArray[np.float64]:
+        """Their centers of mass."""
+        return self._cells[2]
+
+    @property
+    def nlist(self) -> Faces:
+        """The faces of the cells."""
+        return self._cells[3]
+
+    def polyhedra(self) -> list[tuple[NDArray[np.float64], list[NDArray[np.int64]]]]:
+        """The cells as polyhedra: for each point the corners, and the faces as indices of corners, counter-clockwise seen from outside,
+        in the order of `nlist`. Each is around the point where it was given."""
+        starts, corners, ends, numbers = self._core.polyhedra()
+        faces = np.split(numbers, ends[1:-1]) if len(ends) > 1 else []
+        rows = self.nlist.indptr
+        return [
+            (corners[starts[i] : starts[i + 1]], faces[rows[i] : rows[i + 1]])
+            for i in range(self.npoints)
+        ]
+
+    def __repr__(self) -> str:
+        """A line that says what there is."""
+        return f"<delone.Periodic: {self.npoints} points, {len(self.simplices)} simplices>"
+
+
+def as_box(box: ArrayLike, ndim: int) -> NDArray[np.float64]:
+    """The axes of a box, one a row, from its sides, from six numbers or from a matrix."""
+    array = as_numbers(box, "box").astype(np.float64)
+    if array.shape == (ndim,):
+        return np.diag(array)
+    if array.shape == (6,) and ndim == 3:
+        lx, ly, lz, xy, xz, yz = array
+        return np.array([[lx, 0, 0], [xy, ly, 0], [xz, yz, lz]])
+    if array.shape == (ndim, ndim):
+        return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"])
+    kinds = "3 sides, (lx, ly, lz, xy, xz, yz), or a matrix of 3 rows" if ndim == 3 else "2 sides, or a matrix of 2 rows"
+    raise ValueError(f"box must be {kinds} for points of {ndim} coordinates; its shape is {array.shape}")
+
+
+def as_axes(periodic: bool | Sequence[bool], ndim: int) -> list[bool]:
+    """A truth for each axis."""
+    if isinstance(periodic, (bool, np.bool_)):
+        return [bool(periodic)] * ndim
+    axes = [as_flag(axis, "periodic") for axis in periodic]
+    if len(axes) != ndim:
+        raise ValueError(f"periodic must be True, False, or {ndim} of them, one for each axis, not {len(axes)}")
+    return axes
+
+
+def as_step(grid: str | float | None) -> float | None:
+    """None for no decimal grid, 0 for one to be found, else a step."""
+    if grid is None:
+        return None
+    if isinstance(grid, str):
+        if grid == "auto":
+            return 0.0
+        raise ValueError(f"grid must be 'auto' or a step, not {grid!r}")
+    step = float(grid)
+    if not 0 < step < np.inf:
+        raise ValueError(f"grid must be 'auto' or a positive step, not {grid!r}")
+    return step
+
+
+def _squares(radii: ArrayLike, count: int) -> NDArray[np.float64]:
+    array = as_weights(radii, count, "radii", "radius")
+    if (array < 0).any():
+        row = int(np.argmax(array < 0))
+        raise ValueError(f"radii: point {row} has the radius {array[row]}, which is negative")
+    return array * array

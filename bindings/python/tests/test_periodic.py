@@ -1,0 +1,121 @@
+"""Points in boxes that repeat, beside definitions: copies for SciPy, sums, and crystals that are known."""
+
+import itertools
+
+import delone
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull, Voronoi
+
+CUBE = np.eye(3) * 4.0
+TILTED = np.array([[4.0, 0, 0], [1, 3, 0], [-1, 1, 5]])
+
+
+def crystal(basis, cells, constant):
+    shifts = np.array(list(itertools.product(range(cells), repeat=3)), float)
+    return (shifts[:, None] + np.array(basis)).reshape(-1, 3) * constant, [cells * constant] * 3
+
+
+SC, BCC = [[0, 0, 0]], [[0, 0, 0], [0.5, 0.5, 0.5]]
+FCC = [[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]]
+
+
+@pytest.mark.parametrize("box", [CUBE, TILTED])
+@pytest.mark.parametrize("n", [1, 2, 5, 40])
+def test_cells_are_those_of_enough_copies(box, n):
+    fractions = np.random.default_rng(n).random((n, 3))
+    points = fractions @ box
+    p = delone.Periodic(points, box)
+    shifts = np.array(list(itertools.product((-2, -1, 0, 1, 2), repeat=3)))
+    shifts = shifts[np.argsort(np.abs(shifts).sum(axis=1), kind="stable")]
+    reference = Voronoi(((fractions[None] + shifts[:, None]).reshape(-1, 3)) @ box)
+    volumes = [ConvexHull(reference.vertices[reference.regions[reference.point_region[i]]]).volume for i in range(n)]
+    np.testing.assert_allclose(p.volumes, volumes, rtol=1e-9)
+    assert p.volumes.sum() == pytest.approx(abs(np.linalg.det(box)), rel=1e-13)
+    # Faces: to which point, how large, and where the copy is.
+    areas = np.zeros((n, n))
+    np.add.at(areas, (np.repeat(np.arange(n), np.diff(p.nlist.indptr)), p.nlist.indices), p.nlist.areas)
+    np.testing.assert_allclose(areas, areas.T, atol=1e-9)
+    np.testing.assert_allclose(areas.sum(axis=1), p.areas)
+    of = np.repeat(np.arange(n), np.diff(p.nlist.indptr))
+    np.testing.assert_allclose(points[p.nlist.indices] + p.nlist.offsets @ box - points[of], p.nlist.vectors, atol=1e-12)
+    # Simplices fill the box, and corners are where they are said to be.
+    corners = points[p.simplices] + p.offsets @ box
+    sizes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+    assert np.abs(sizes).sum() == pytest.approx(abs(np.linalg.det(box)))
+    assert (p.neighbors >= 0).all() and len(p.edges) == n + len(p.simplices)
+
+
+@pytest.mark.parametrize(("basis", "faces"), [(SC, 6), (BCC, 14), (FCC, 12)])
+@pytest.mark.parametrize("constant", [1.0, 0.3, 3.639])
+def test_crystals_of_decimals(basis, faces, constant):
+    points, box = crystal(basis, 3, constant)
+    p = delone.Periodic(points, box, grid="auto")
+    assert (np.diff(p.nlist.indptr) == faces).all()
+    np.testing.assert_allclose(p.volumes, constant**3 / len(basis), rtol=1e-14)
+    assert p.step is not None and p.rounding < 1e-14
+
+
+def test_polyhedra_are_closed_and_convex():
+    points = np.random.default_rng(1).random((30, 3)) * 4
+    p = delone.Periodic(points, CUBE, radii=np.full(30, 0.5))
+    for (corners, faces), volume, centroid in zip(p.polyhedra(), p.volumes, p.centroids, strict=True):
+        assert ConvexHull(corners).volume == pytest.approx(volume, rel=1e-9)
+        sides = [(face[i - 1], face[i]) for face in faces for i in range(len(face))]
+        assert len(set(sides)) == len(sides) and set(sides) == {(b, a) for a, b in sides}
+        assert (ConvexHull(corners).equations[:, :3] @ centroid + ConvexHull(corners).equations[:, 3] < 0).all()
+
+
+def test_radii_make_power_cells():
+    points = [[0.0, 0, 0], [2.0, 0, 0]]
+    p = delone.Periodic(points, [4, 1, 1], radii=[1, 0.5])
+    # The radical plane: (d^2 + r^2 - s^2) / 2 d from the larger one, on both sides.
+    width = 2 * (4 + 1 - 0.25) / 4
+    np.testing.assert_allclose(p.volumes, [width, 4 - width])
+    assert delone.Periodic(points, [4, 1, 1], radii=[10, 0.5]).hidden.tolist() == [1]
+
+
+def test_the_plane_and_mixed_axes():
+    points = np.random.default_rng(2).random((20, 2))
+    p = delone.Periodic(points, [1, 1])
+    assert p.simplices.shape == (40, 3) and (p.neighbors >= 0).all()
+    strip = delone.Periodic(points, [1, 1], periodic=(True, False))
+    assert (strip.neighbors == -1).any() and (strip.offsets[..., 1] == 0).all()
+    with pytest.raises(NotImplementedError, match="space"):
+        _ = p.volumes
+
+
+def test_copies_are_duplicates():
+    p = delone.Periodic([[0.5, 0.5, 0.5], [2.5, 0.5, -1.5]], [1, 1, 1])
+    assert p.duplicates.tolist() == [[1, 0]] and p.duplicate_offsets.tolist() == [[2, 0, -2]]
+    assert p.volumes.tolist() == [1.0, 0.0] and np.isnan(p.centroids[1]).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (dict(box=[1, 1]), "3 sides"),
+        (dict(box=[1, -1, 1]), "axis 1 of the lattice"),
+        (dict(box=np.eye(3)[[1, 0, 2]]), "left-handed"),
+        (dict(box=np.zeros((3, 3))), "axis 0 of the lattice"),
+        (dict(box=[1, 1, 1], periodic=(True, False)), "periodic must be"),
+        (dict(box=[1, 1, 1], radii=[1, 2]), "radii must have the shape"),
+        (dict(box=[1, 1, 1], radii=[-1]), "point 0 has the radius -1"),
+        (dict(box=[1, 1, 1], radii=[np.nan]), "radii: point 0"),
+        (dict(box=[1, 1, 1], grid="fine"), "grid must be"),
+        (dict(box=[1, 1, 1], grid=-1.0), "grid must be"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        delone.Periodic([[0.0, 0, 0]], **arguments)
+
+
+def test_freud_finds_the_same_neighbors():
+    freud = pytest.importorskip("freud")
+    points = np.random.default_rng(4).random((200, 3)).astype(np.float32).astype(np.float64) * 8 - 4
+    p = delone.Periodic(points, [8, 8, 8])
+    voronoi = freud.locality.Voronoi()
+    voronoi.compute((freud.box.Box.cube(8), points))
+    np.testing.assert_allclose(np.sort(p.volumes), np.sort(voronoi.volumes), rtol=1e-4)
+    assert len(p.nlist.indices) == pytest.approx(len(voronoi.nlist), abs=4)
