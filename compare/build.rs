@@ -1,4 +1,4 @@
-//! Builds the CGAL shim where CGAL's headers are installed (Debian: `libcgal-dev`), and says so to the program.
+//! Builds the shims of CGAL and Voro++ where their headers are installed (Debian: `libcgal-dev`, `voro++-dev`), and says so to the program.
 
 use std::path::Path;
 
@@ -24,5 +24,13 @@ fn main() {
         println!("cargo::rustc-cfg=cgal");
         println!("cargo::rustc-link-lib=gmp");
         println!("cargo::rustc-link-lib=mpfr");
+    }
+    println!("cargo::rustc-check-cfg=cfg(voro)");
+    println!("cargo::rerun-if-changed=src/voro.cpp");
+    println!("cargo::rerun-if-changed=/usr/include/voro++");
+    if Path::new("/usr/include/voro++/voro++.hh").exists() {
+        cc::Build::new().cpp(true).opt_level(3).warnings(false).file("src/voro.cpp").compile("voro_shim");
+        println!("cargo::rustc-cfg=voro");
+        println!("cargo::rustc-link-lib=voro++");
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --manifest-path compare/Cargo.toml -- --help`
 
+mod cells3;
 mod changes;
 mod constrained;
 mod engines;
@@ -65,6 +66,9 @@ struct Args {
     /// Time triangulation in 64 tiles of space of these sets (cube, clusters3, ...) instead, and measure its memory.
     #[arg(long, value_delimiter = ',')]
     tiles3: Vec<String>,
+    /// Time Voronoi cells of space instead of building.
+    #[arg(long)]
+    cells3: bool,
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
@@ -154,6 +158,10 @@ fn compare(args: &Args) {
     }
     if args.graphs {
         std::process::exit(i32::from(!each_set(args, graphs::run)));
+    }
+    if args.cells3 {
+        let wrong = args.size.iter().filter(|&&size| !cells3::run(size, args.runs)).count();
+        std::process::exit(i32::from(wrong > 0));
     }
     if args.hull {
         panic::set_hook(Box::new(|_| {}));

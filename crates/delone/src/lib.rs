@@ -176,7 +176,7 @@ pub use regular::{RegularFlaw, Reweighed};
 pub use space::check::Flaw3;
 pub use space::{
     Across3, Algorithm3, Cell3, Cells3, Delaunay3, Face3, Hints3, Location3, Moving3, Power3, Region3,
-    Regular3, Step3, Voronoi3,
+    Regular3, Relaxation3, Step3, Voronoi3,
 };
 pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Regular, Triangulation};

@@ -16,7 +16,7 @@ fn turned(mut ring: Vec<u32>) -> Vec<u32> {
     ring
 }
 
-/// What must hold of all cells: each is closed, faces fit those beyond, corners are used under one index, and volumes sum up.
+/// Conditions of all cells: each is closed, faces fit those beyond, corners are used under one index, and volumes sum up.
 fn check(cells: &Cells3, sites: &[VertexId], region: &Region3, name: &str) {
     let mut faces: BTreeMap<(VertexId, VertexId), Vec<Vec<u32>>> = BTreeMap::new();
     let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
@@ -404,7 +404,7 @@ fn threads_do_not_show() {
     check(&one, &d.vertices().collect::<Vec<_>>(), &region, "threads");
 }
 
-/// What goes wrong elsewhere.
+/// Sets on which others go wrong.
 #[test]
 fn hostile_sets() {
     let mut random = Random::new(8);

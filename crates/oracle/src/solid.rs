@@ -144,7 +144,7 @@ pub fn side(four: &[HalfSpace; 4]) -> Option<i8> {
     Some(side_of(&meeting([&rows[0], &rows[1], &rows[2]])?, &rows[3]))
 }
 
-/// The same after small but real moves: planes that depend on no site inwards, in some order of them, then sites raised from the
+/// The side after small but real moves: planes that depend on no site inwards, in some order of them, then sites raised from the
 /// lexicographically largest on, each by 2^-`bits` of the one before. Right if no number is within that.
 pub fn side_of_moved(four: &[HalfSpace; 4], order: &[usize], bits: u32) -> Option<i8> {
     let mut rows = rows(four, unit_of(four));
@@ -228,7 +228,7 @@ impl Fraction {
     }
 }
 
-/// What is in all half-spaces, which must be bounded: corners by all triples of planes.
+/// The inside of all half-spaces, which must be bounded: corners by all triples of planes.
 pub fn polyhedron(rows: &[Row]) -> Polyhedron {
     let mut corners: Vec<Place> = Vec::new();
     for i in 0..rows.len() {

@@ -28,9 +28,9 @@ use crate::{Point3, Sign, Site};
 /// One side of a plane, and the plane itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HalfSpace {
-    /// What is as near to a point as to another one, or nearer.
+    /// Places as near to a point as to another one, or nearer.
     Bisector(Point3, Point3),
-    /// What has no more power to a site than to another one.
+    /// Places with no more power to a site than to another one.
     Radical(Site<3>, Site<3>),
     /// Where a coordinate (0, 1, 2) is a number or more.
     Above(usize, f64),

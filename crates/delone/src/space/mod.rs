@@ -27,4 +27,4 @@ pub use locate::Location3;
 pub use moving::{Moving3, Step3};
 pub use region::Region3;
 pub use regular::{Power3, Regular3};
-pub use voronoi::{Across3, Cell3, Cells3, Face3, Voronoi3};
+pub use voronoi::{Across3, Cell3, Cells3, Face3, Relaxation3, Voronoi3};

@@ -30,7 +30,7 @@ fn normal(u: Point3, v: Point3) -> (Point3, Point3) {
     ([x.0, y.0, z.0], [x.1, y.1, z.1])
 }
 
-/// What a solution misses of a side and its rest, and by how much that may be off.
+/// The part of a side and its rest that a solution misses, and by how much that may be off.
 #[inline]
 fn missed(u: Point3, low: Point3, q: Point3, weight: [f64; 2]) -> (f64, f64) {
     let (mut sum, mut rest, mut size) = (-0.5 * weight[0], -0.5 * weight[1], weight[0].abs());

@@ -5,7 +5,7 @@
 //! Cost: O(k) for k corners.
 
 /// Below this a product of four may have lost bits.
-const SMALL: f64 = 1e-150;
+const LEAST_PRODUCT: f64 = 1e-150;
 
 type Point = [f64; 3];
 
@@ -77,7 +77,7 @@ fn moments<F: Iterator<Item = Point>>(
 
 /// Whether nothing was lost: products of four are in the range of `f64`.
 fn is_in_range(volume: f64, moment: Point) -> bool {
-    volume.abs() >= SMALL && volume.is_finite() && moment.iter().all(|x| x.is_finite())
+    volume.abs() >= LEAST_PRODUCT && volume.is_finite() && moment.iter().all(|x| x.is_finite())
 }
 
 /// A power of two that takes lengths of about the extent of points, as seen from one, to about one.

@@ -77,7 +77,7 @@ impl Solid {
         self.corners.is_empty()
     }
 
-    /// What is beyond the three planes of each corner, and its place, correctly rounded.
+    /// The corners, each after the codes of what is beyond its three planes.
     pub(in crate::space) fn corners(&self) -> impl Iterator<Item = ([Option<u32>; 3], &Corner3)> {
         self.corners.iter().map(|corner| (corner.planes().map(|i| self.beyond[i]), corner))
     }

@@ -25,7 +25,7 @@ pub struct Cells3 {
 /// Faces as they are kept, cell by cell.
 #[derive(Clone, Debug)]
 pub(super) struct Faces {
-    /// What is beyond each.
+    /// The codes of what is beyond each.
     pub(super) across: Vec<u32>,
     /// Where the corners of each start; and the end of the last.
     pub(super) starts: Vec<usize>,
@@ -33,7 +33,7 @@ pub(super) struct Faces {
     pub(super) indices: Vec<u32>,
 }
 
-/// What is beyond a face of a cell: another cell or a wall of the region. There is no third, so a match may name both.
+/// The other side of a face of a cell: another cell or a wall of the region. There is no third, so a match may name both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Across3 {
     /// The cell of this site.
@@ -230,7 +230,7 @@ impl<'a> Cell3<'a> {
 }
 
 impl<'a> Face3<'a> {
-    /// What is beyond it.
+    /// The cell or the wall beyond it.
     pub fn across(self) -> Across3 {
         Across3::of(self.across)
     }

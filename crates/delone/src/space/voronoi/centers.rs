@@ -19,7 +19,7 @@ type Site<W> = ([f64; 3], W);
 
 /// A kernel whose triangulations are dual to cells.
 pub(in crate::space) trait Cellular: Lift + Sync {
-    /// What belongs to the first site rather than to the second.
+    /// The places that belong to the first site rather than to the second.
     fn half_space(a: Site<Self>, b: Site<Self>) -> HalfSpace;
 
     /// The corner of the cells of four sites.
@@ -97,9 +97,9 @@ impl Centers {
 /// Whether two centers are the same but for roundings.
 #[inline]
 fn are_near(p: [f64; 3], q: [f64; 3]) -> bool {
-    const NEAR: f64 = 1.0 / (1_u64 << 40) as f64;
+    const RELATIVE_ROUNDING: f64 = 1.0 / (1_u64 << 40) as f64;
     let size = p.into_iter().chain(q).fold(0.0_f64, |most, x| most.max(x.abs()));
-    (0..3).all(|k| (p[k] - q[k]).abs() <= NEAR * size)
+    (0..3).all(|k| (p[k] - q[k]).abs() <= RELATIVE_ROUNDING * size)
 }
 
 fn same<W: Lift>(layer: &Layer<W>, points: &[[f64; 3]]) -> Vec<u32> {

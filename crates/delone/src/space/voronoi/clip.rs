@@ -75,12 +75,7 @@ impl Voronoi3<'_> {
 /// The cells of all vertices of a layer, clipped; `ids` were given.
 pub(in crate::space) fn of<W: Cellular>(layer: &Layer<W>, ids: usize, region: &Region3) -> Cells3 {
     let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
-    let parts = parallel::map(parallel::ranges(layer.points.len()), |places| {
-        let mut part = Part::new(centers.points.len());
-        Worker::new(layer, &centers, Some(region)).run(places, |_| true, &mut part, |_, _| {});
-        part
-    });
-    joined(centers, ids, parts)
+    all(layer, ids, centers, Some(region), |_| true)
 }
 
 /// The cells of all vertices of a layer, clipped, one after the other.
@@ -91,16 +86,11 @@ pub(in crate::space) fn each<W: Cellular>(
 ) {
     let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
     let mut part = Part::new(centers.points.len());
-    let places = 0..layer.points.len();
-    Worker::new(layer, &centers, Some(region)).run(
-        places,
-        |_| true,
-        &mut part,
-        |part, site| {
-            each(site, part.last(&centers.points));
-            part.forget();
-        },
-    );
+    let places = in_order(layer);
+    Worker::new(layer, &centers, Some(region)).run(&places, &mut part, |part, site| {
+        each(site, part.last(&centers.points));
+        part.forget();
+    });
 }
 
 /// The cells of wanted vertices, clipped; without a region the whole ones that are bounded. Those of others have no faces.
@@ -111,20 +101,44 @@ pub(in crate::space) fn of_wanted<W: Cellular>(
     is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
 ) -> Cells3 {
     let is_wanted = |p: Place| is_wanted(layer.mesh.name(p));
-    let centers = Centers::of(
-        layer,
-        |corners| corners.into_iter().any(is_wanted),
-        |p| region.is_none_or(|region| region.surely_holds(p)),
-    );
-    let parts = parallel::map(parallel::ranges(layer.points.len()), |places| {
+    let is_inside = |p: [f64; 3]| region.is_none_or(|region| region.surely_holds(p));
+    let centers = Centers::of(layer, |corners| corners.into_iter().any(is_wanted), is_inside);
+    all(layer, ids, centers, region, is_wanted)
+}
+
+/// The cells of wanted places.
+fn all<W: Cellular>(
+    layer: &Layer<W>,
+    ids: usize,
+    centers: Centers,
+    region: Option<&Region3>,
+    is_wanted: impl Fn(Place) -> bool + Send + Sync,
+) -> Cells3 {
+    let places: Vec<Place> = in_order(layer).into_iter().filter(|&p| is_wanted(p)).collect();
+    let parts = parallel::map(parallel::ranges(places.len()), |range| {
         let mut part = Part::new(centers.points.len());
-        Worker::new(layer, &centers, region).run(places, is_wanted, &mut part, |_, _| {});
+        Worker::new(layer, &centers, region).run(&places[range], &mut part, |_, _| {});
         part
     });
     joined(centers, ids, parts)
 }
 
-/// What makes cells, one after the other.
+/// The places of all vertices in the order of tetrahedra, which lie in memory as in space.
+fn in_order<W: Cellular>(layer: &Layer<W>) -> Vec<Place> {
+    let mut seen = vec![false; layer.points.len()];
+    layer.scaffold.iter().for_each(|p| seen[p.index()] = true);
+    let mut places = Vec::with_capacity(layer.mesh.vertex_count);
+    for cell in &layer.mesh.cells {
+        for p in cell.corners.into_iter().filter(|p| !p.is_ghost()) {
+            if !std::mem::replace(&mut seen[p.index()], true) {
+                places.push(p);
+            }
+        }
+    }
+    places
+}
+
+/// A maker of cells, one after the other.
 struct Worker<'a, W: Cellular> {
     layer: &'a Layer<W>,
     centers: &'a Centers,
@@ -150,18 +164,9 @@ impl<'a, W: Cellular> Worker<'a, W> {
     }
 
     /// Makes the cells of some places.
-    fn run(
-        &mut self,
-        places: std::ops::Range<usize>,
-        is_wanted: impl Fn(Place) -> bool,
-        part: &mut Part,
-        mut each: impl FnMut(&mut Part, VertexId),
-    ) {
-        let mesh = &self.layer.mesh;
-        let is_used =
-            |p: &Place| mesh.incident[p.index()] != TetrahedronId::NONE && !self.layer.is_scaffold(*p);
-        for place in places.map(Place::new).filter(is_used).filter(|&p| is_wanted(p)) {
-            let site = mesh.name(place);
+    fn run(&mut self, places: &[Place], part: &mut Part, mut each: impl FnMut(&mut Part, VertexId)) {
+        for &place in places {
+            let site = self.layer.mesh.name(place);
             part.begin(site);
             let is_whole = self.reader.push(place, &mut part.faces);
             if let Some(region) = self.region.filter(|_| !is_whole) {
@@ -177,7 +182,13 @@ impl<'a, W: Cellular> Worker<'a, W> {
         let site = layer.site(place);
         let wall = |number: u32| Across3::Wall(number as usize).code();
         solid.start(region.frame.iter().map(|(side, number)| (*side, number.map(wall))), site.0);
-        for other in layer.joined_to(place, star) {
+        let mut others = layer.joined_to(place, star);
+        // The nearest first: then few corners are made that others cut off.
+        others.sort_by_cached_key(|p| {
+            let square: f64 = (0..3).map(|k| (layer.points[p.index()][k] - site.0[k]).powi(2)).sum();
+            square.to_bits()
+        });
+        for other in others {
             let half_space = W::half_space(site, layer.site(other));
             solid.cut(half_space, Across3::Site(layer.mesh.name(other)).code());
             if solid.is_empty() {

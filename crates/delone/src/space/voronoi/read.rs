@@ -7,7 +7,7 @@ use super::centers::Centers;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::tetrahedra::{Mesh3, first_around};
 
-/// What reads cells, one after the other.
+/// A reader of cells, one after the other.
 pub(super) struct Reader<'a> {
     mesh: &'a Mesh3,
     centers: &'a Centers,
