@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use delone::{
-    CellularKind, DecimalGrid, Error, Grid, Image, Lattice, Periodic, Periodic2, Periodic3, PeriodicKind,
-    PeriodicRegular2, PeriodicRegular3, VertexId,
+    AcrossPeriodic3, CellularKind, DecimalGrid, Error, Grid, Lattice, Periodic, Periodic2, Periodic3,
+    PeriodicKind, PeriodicRegular2, PeriodicRegular3, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyNotImplementedError, PyValueError};
@@ -68,13 +68,15 @@ fn grid_of(step: Option<f64>) -> Result<Grid, Error> {
 fn lattice_of<const D: usize>(
     axes: &PyReadonlyArray2<'_, f64>,
     periodic: &[bool],
+    origin: &[f64],
     step: Option<f64>,
 ) -> PyResult<Lattice<D>> {
     let axes: [[f64; D]; D] =
         rows::<_, D>(axes)?.try_into().map_err(|_| PyValueError::new_err("a square matrix"))?;
     let periodic = periodic.try_into().map_err(|_| PyValueError::new_err("a truth for each axis"))?;
+    let origin = origin.try_into().map_err(|_| PyValueError::new_err("a coordinate for each axis"))?;
     let lattice = Lattice::with_axes(axes).map_err(python_error)?;
-    Ok(lattice.periodic(periodic).grid(grid_of(step).map_err(python_error)?))
+    Ok(lattice.periodic(periodic).origin(origin).grid(grid_of(step).map_err(python_error)?))
 }
 
 #[pymethods]
@@ -86,13 +88,15 @@ impl PyPeriodic {
         weights: Option<PyReadonlyArray1<'_, f64>>,
         axes: PyReadonlyArray2<'_, f64>,
         periodic: Vec<bool>,
+        origin: Vec<f64>,
         step: Option<f64>,
     ) -> PyResult<Self> {
         let (count, columns) = (points.shape()[0], points.shape()[1]);
         TRIANGULATION.check(columns, count)?;
         let weights = weights.map(|weights| weights.to_vec()).transpose()?;
         Ok(Self(if columns == 2 {
-            let (points, lattice) = (coordinates::<[f64; 2]>(&points)?, lattice_of(&axes, &periodic, step)?);
+            let (points, lattice) =
+                (coordinates::<[f64; 2]>(&points)?, lattice_of(&axes, &periodic, &origin, step)?);
             match weights {
                 None => Kind::Plane(built(py, count, move || Periodic2::from_points(&points, &lattice))?),
                 Some(weights) => Kind::WeightedPlane(built(py, count, move || {
@@ -100,7 +104,8 @@ impl PyPeriodic {
                 })?),
             }
         } else {
-            let (points, lattice) = (coordinates::<[f64; 3]>(&points)?, lattice_of(&axes, &periodic, step)?);
+            let (points, lattice) =
+                (coordinates::<[f64; 3]>(&points)?, lattice_of(&axes, &periodic, &origin, step)?);
             match weights {
                 None => Kind::Space(built(py, count, move || Periodic3::from_points(&points, &lattice))?),
                 Some(weights) => Kind::WeightedSpace(built(py, count, move || {
@@ -237,21 +242,27 @@ fn cells<'py, T: CellularKind + 'static>(
     }
     let t = Arc::clone(t);
     let found = interruptible(py, t.ids_given(), move || {
-        let cells = t.cells();
+        let cells = t.cells()?;
         let mut found = Found { starts: vec![0], ..Found::default() };
         for site in (0..t.ids_given()).map(VertexId::new) {
             let cell = cells.cell(site);
             let mut sum = 0.0;
             for face in cell.faces() {
-                let (other, offset): Image<3> = face.neighbor();
                 let area = face.area();
                 sum += area;
-                // Rounding has left nothing of it.
+                // Of some rounding has left nothing.
                 if area > 0.0 {
-                    found.beyond.push(index(other));
+                    let (beyond, offset) = match face.across() {
+                        AcrossPeriodic3::Site((other, offset)) => (index(other), offset),
+                        // From -1 on: the beginning of the first axis, its end, and so on.
+                        AcrossPeriodic3::Wall { axis, is_end } => {
+                            (-1 - 2 * axis as i32 - i32::from(is_end), [0; 3])
+                        }
+                    };
+                    found.beyond.push(beyond);
                     found.offsets.push(offset);
                     found.face_areas.push(area);
-                    found.vectors.push(face.vector());
+                    found.vectors.push(face.vector().unwrap_or([f64::NAN; 3]));
                 }
             }
             found.areas.push(sum);
@@ -259,8 +270,9 @@ fn cells<'py, T: CellularKind + 'static>(
             found.centroids.push(cell.centroid().unwrap_or([f64::NAN; 3]));
             found.starts.push(found.beyond.len() as i64);
         }
-        found
-    })?;
+        Ok(found)
+    })?
+    .map_err(python_error)?;
     let row = |values| PyArray1::from_vec(py, values);
     Ok((
         (row(found.volumes), row(found.areas), table(py, 3, found.centroids.into_flattened())?),
@@ -280,7 +292,7 @@ fn polyhedra<'py, T: CellularKind + 'static>(
 ) -> PyResult<Polyhedra<'py>> {
     let t = Arc::clone(t);
     let (starts, corners, ends, numbers) = interruptible(py, t.ids_given(), move || {
-        let cells = t.cells();
+        let cells = t.cells()?;
         let (mut starts, mut corners, mut ends, mut numbers) = (vec![0], Vec::new(), vec![0], Vec::new());
         for site in (0..t.ids_given()).map(VertexId::new) {
             let cell = cells.cell(site);
@@ -293,8 +305,9 @@ fn polyhedra<'py, T: CellularKind + 'static>(
                 }
             }
         }
-        (starts, corners, ends, numbers)
-    })?;
+        Ok((starts, corners, ends, numbers))
+    })?
+    .map_err(python_error)?;
     let row = |values| PyArray1::from_vec(py, values);
     Ok((row(starts), table(py, 3, corners.into_flattened())?, row(ends), row(numbers)))
 }

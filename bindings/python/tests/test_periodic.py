@@ -5,6 +5,7 @@ import itertools
 import delone
 import numpy as np
 import pytest
+from delone import pyvoro
 from scipy.spatial import ConvexHull, Voronoi
 
 CUBE = np.eye(3) * 4.0
@@ -109,6 +110,28 @@ def test_copies_are_duplicates():
 def test_bad_arguments_are_named(arguments, message):
     with pytest.raises(ValueError, match=message):
         delone.Periodic([[0.0, 0, 0]], **arguments)
+
+
+@pytest.mark.parametrize("periodic", [(False, False, False), (True, False, True), (True, True, True)])
+def test_cells_as_pyvoro_gives_them(periodic):
+    points = np.random.default_rng(3).random((50, 3)) * [2, 3, 4] + [1, -1, 5]
+    limits = [[1, 3], [-1, 2], [5, 9]]
+    cells = pyvoro.compute_voronoi(points, limits, 1.0, radii=[], periodic=periodic)
+    assert sum(cell["volume"] for cell in cells) == pytest.approx(24, rel=1e-13)
+    walls = set()
+    for i, cell in enumerate(cells):
+        assert ConvexHull(np.array(cell["vertices"])).volume == pytest.approx(cell["volume"], rel=1e-9)
+        for face in cell["faces"]:
+            other = face["adjacent_cell"]
+            if other < 0:
+                walls.add(other)
+                axis, end = divmod(-1 - other, 2)
+                assert all(cell["vertices"][v][axis] == limits[axis][end] for v in face["vertices"])
+            else:
+                assert any(back["adjacent_cell"] == i for back in cells[other]["faces"])
+        assert all(v in cell["adjacency"][w] for v, row in enumerate(cell["adjacency"]) for w in row)
+        assert all(len(row) >= 3 for row in cell["adjacency"])
+    assert walls == {-1 - 2 * axis - end for axis in range(3) for end in (0, 1) if not periodic[axis]}
 
 
 def test_freud_finds_the_same_neighbors():

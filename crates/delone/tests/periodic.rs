@@ -367,9 +367,8 @@ fn check_cells<T: CellularKind>(t: &Periodic<T, 3, 4>, volume_of_box: f64) -> us
             assert!(face.points().eq(ring.iter().map(|&i| corners[i])));
             let Some((other, offset)) = face.neighbor() else {
                 walls += 1;
-                for k in 0..3 {
-                    flux[k] += face.area() * face.normal().expect("an area")[k];
-                }
+                let normal = face.normal().expect("an area");
+                flux = std::array::from_fn(|k| flux[k] + face.area() * normal[k]);
                 continue;
             };
             let copy = t.position((other, offset));

@@ -111,7 +111,7 @@ class Neighbors:
 
 @final
 class Periodic:
-    """Points, weights unless all are equal, axes, which of them repeat, and the step of a decimal grid: none, 0 for one to be found."""
+    """Points, weights unless all are equal, axes, which of them repeat, where the box begins, and the step of a decimal grid: none, 0 for one to be found."""
 
     def __new__(
         cls,
@@ -119,6 +119,7 @@ class Periodic:
         weights: NDArray[np.float64] | None,
         axes: NDArray[np.float64],
         periodic: Sequence[bool],
+        origin: Sequence[float],
         step: float | None,
     ) -> Periodic: ...
     def arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int32], NDArray[np.int64]]: ...

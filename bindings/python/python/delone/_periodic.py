@@ -17,8 +17,9 @@ from ._regular import as_weights
 class Faces(NamedTuple):
     """The faces of cells, as the rows of a sparse matrix: those of point i are ``indptr[i]:indptr[i + 1]``.
 
-    One entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to that,
+    An entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to that,
     `areas` its area, `vectors` goes from the point to the copy beyond. Both sides of a face have an entry; a point may be its own neighbor.
+    Walls of the box have the indices -1 and -2 at the beginning and the end of the first axis, then -3 to -6, and NaN as vectors.
     """
 
     indptr: NDArray[np.int64]
@@ -42,9 +43,11 @@ class Periodic:
         The sides of a box; or in space six numbers (lx, ly, lz, xy, xz, yz), as LAMMPS has them for the axes (lx, 0, 0), (xy, ly, 0) and
         (xz, yz, lz); or a matrix with an axis in each row, right-handed.
     periodic : bool or sequence of bool
-        Along which axes the box repeats. Along others it has no bounds.
+        Along which axes the box repeats. Along others simplices go on without bounds, and cells end at the walls of the box.
     radii : array_like of floats, shape (n,), optional
         Radii of balls: cells are power cells (radical, Laguerre) then, bounded by radical planes.
+    origin : array_like of d floats, optional
+        Where the box begins, zeros by default: for the walls.
     grid : "auto" or float, optional
         A step that coordinates are multiples of: crystals of decimals are exact then. "auto" takes the decimals of points and box, if they
         have any within rounding.
@@ -65,12 +68,14 @@ class Periodic:
     is_simplicial : bool
         Whether points alone name the simplices: no simplex has a point twice, and no two have the same points.
     volumes, areas : arrays of shape (n,)
-        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for duplicates
-        and hidden points, and for cells that are not bounded, which only a box has that does not repeat along all axes.
+        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for duplicates,
+        hidden points, and cells beyond the walls.
     centroids : array of shape (n, 3)
         The centers of mass of the cells; NaN for those without volume.
     nlist : Faces
-        The faces of the cells, as rows of a sparse matrix.
+        The faces between cells, as rows of a sparse matrix.
+    faces : Faces
+        The same with walls.
     rounding : float
         By how much coordinates were rounded at most, so that copies are exact.
     step : float or None
@@ -99,6 +104,7 @@ class Periodic:
         periodic: bool | Sequence[bool] = True,
         radii: ArrayLike | None = None,
         grid: str | float | None = None,
+        origin: ArrayLike | None = None,
     ) -> None:
         """Triangulates points and their copies."""
         self.points = np.array(as_points(points), order="C")
@@ -107,7 +113,9 @@ class Periodic:
         self.box = as_box(box, self.ndim)
         self.periodic = as_axes(periodic, self.ndim)
         weights = None if radii is None else _squares(radii, self.npoints)
-        self._core = _delone.Periodic(self.points, weights, self.box, self.periodic, as_step(grid))
+        self.origin = _as_origin(origin, self.ndim)
+        arguments = self.box, self.periodic, self.origin.tolist(), as_step(grid)
+        self._core = _delone.Periodic(self.points, weights, *arguments)
         self.rounding, self.step, self._span = self._core.facts()
 
     @cached_property
@@ -195,20 +203,26 @@ class Periodic:
         return self._cells[2]
 
     @property
-    def nlist(self) -> Faces:
+    def faces(self) -> Faces:
         """The faces of the cells."""
         return self._cells[3]
 
+    @cached_property
+    def nlist(self) -> Faces:
+        """The faces between cells."""
+        indptr, indices, offsets, areas, vectors = self.faces
+        kept = indices >= 0
+        before = np.concatenate([[0], np.cumsum(kept)])
+        return Faces(before[indptr], indices[kept], offsets[kept], areas[kept], vectors[kept])
+
     def polyhedra(self) -> list[tuple[NDArray[np.float64], list[NDArray[np.int64]]]]:
         """The cells as polyhedra: for each point the corners, and the faces as indices of corners, counter-clockwise seen from outside,
-        in the order of `nlist`. Each is around the point where it was given."""
+        in the order of `faces`. Each is around the point where it was given."""
         starts, corners, ends, numbers = self._core.polyhedra()
-        faces = np.split(numbers, ends[1:-1]) if len(ends) > 1 else []
-        rows = self.nlist.indptr
-        return [
-            (corners[starts[i] : starts[i + 1]], faces[rows[i] : rows[i + 1]])
-            for i in range(self.npoints)
-        ]
+        rings = np.split(numbers, ends[1:-1]) if len(ends) > 1 else []
+        rows = self.faces.indptr
+        both = zip(zip(starts, starts[1:], strict=False), zip(rows, rows[1:], strict=False), strict=True)
+        return [(corners[a:b], rings[c:d]) for (a, b), (c, d) in both]
 
     def __repr__(self) -> str:
         """A line that says what there is."""
@@ -237,6 +251,13 @@ def as_axes(periodic: bool | Sequence[bool], ndim: int) -> list[bool]:
     if len(axes) != ndim:
         raise ValueError(f"periodic must be True, False, or {ndim} of them, one for each axis, not {len(axes)}")
     return axes
+
+
+def _as_origin(origin: ArrayLike | None, ndim: int) -> NDArray[np.float64]:
+    array = np.zeros(ndim) if origin is None else as_numbers(origin, "origin").astype(np.float64)
+    if array.shape != (ndim,) or not np.isfinite(array).all():
+        raise ValueError(f"origin must be {ndim} finite coordinates, not {origin!r}")
+    return array
 
 
 def as_step(grid: str | float | None) -> float | None:

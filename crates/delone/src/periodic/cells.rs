@@ -69,7 +69,7 @@ pub struct PeriodicFace3<'a, T: CellularKind> {
     face: Face3<'a>,
 }
 
-// Whatever the kind, which a derived implementation would ask to be `Copy` too.
+#[expect(clippy::expl_impl_clone_on_copy, reason = "a derived one asks the kind to be `Copy` too")]
 impl<T: CellularKind> Clone for PeriodicCell3<'_, T> {
     fn clone(&self) -> Self {
         *self
@@ -78,6 +78,7 @@ impl<T: CellularKind> Clone for PeriodicCell3<'_, T> {
 
 impl<T: CellularKind> Copy for PeriodicCell3<'_, T> {}
 
+#[expect(clippy::expl_impl_clone_on_copy, reason = "a derived one asks the kind to be `Copy` too")]
 impl<T: CellularKind> Clone for PeriodicFace3<'_, T> {
     fn clone(&self) -> Self {
         *self

@@ -153,7 +153,11 @@ fn in_steps(x: f64, step: Option<f64>) -> Option<i128> {
 
 /// Adds a multiple of a vector.
 #[inline]
-fn add<T: Copy + AddAssign + Mul<Output = T>, const D: usize>(sum: &mut [T; D], times: T, vector: &[T; D]) {
+pub(super) fn add<T: Copy + AddAssign + Mul<Output = T>, const D: usize>(
+    sum: &mut [T; D],
+    times: T,
+    vector: &[T; D],
+) {
     for (sum, &x) in sum.iter_mut().zip(vector) {
         *sum += times * x;
     }

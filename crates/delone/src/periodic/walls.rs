@@ -3,7 +3,7 @@
 //! A wall is parallel to the other axes. Where it is across a coordinate axis it is so exactly; else it is a face of the hull of eight
 //! corners. Along axes that repeat the region goes further than cells of sites in the box do: by more than the covering radius.
 
-use super::lattice::Prepared;
+use super::lattice::{Prepared, add};
 use super::reduced::covering_radius;
 use crate::error::{Error, LatticeProblem};
 use crate::points::Bounds;
@@ -81,9 +81,7 @@ fn corners(lattice: &Prepared<3>, axes: &[[f64; 3]; 3], free: &[usize]) -> [[f64
     std::array::from_fn(|i| {
         let mut corner = lattice.origin;
         for &axis in free {
-            for k in 0..3 {
-                corner[k] += if i >> axis & 1 == 1 { axes[axis][k] } else { 0.0 };
-            }
+            add(&mut corner, if i >> axis & 1 == 1 { 1.0 } else { 0.0 }, &axes[axis]);
         }
         for (vector, axis) in lattice.reduced.iter().zip(&repeated) {
             // The ends of the box may be shifted along the lattice, and its beginning may be anywhere.
@@ -91,9 +89,7 @@ fn corners(lattice: &Prepared<3>, axes: &[[f64; 3]; 3], free: &[usize]) -> [[f64
             let margin = radius / vector.width + shift;
             let from = vector.fraction(&lattice.origin);
             let times = if i >> axis & 1 == 1 { 1.0 + margin - from } else { -margin - from };
-            for k in 0..3 {
-                corner[k] += times * vector.vector[k];
-            }
+            add(&mut corner, times, &vector.vector);
         }
         corner
     })
