@@ -1,5 +1,6 @@
 """Points in boxes that repeat, beside definitions: copies for SciPy, sums, and crystals that are known."""
 
+import copy
 import itertools
 
 import delone
@@ -96,7 +97,9 @@ def test_copies_are_duplicates():
     ("arguments", "message"),
     [
         (dict(box=[1, 1]), "3 sides"),
-        (dict(box=[1, -1, 1]), "axis 1 of the lattice"),
+        (dict(box=[1, -1, 1]), "the side -1.0 along axis 1"),
+        (dict(box=[1, 1, np.nan, 0, 0, 0]), "the side nan along axis 2"),
+        (dict(box=[1, 1, 1, np.nan, 0, 0]), "axis 1 of the lattice"),
         (dict(box=np.eye(3)[[1, 0, 2]]), "left-handed"),
         (dict(box=np.zeros((3, 3))), "axis 0 of the lattice"),
         (dict(box=[1, 1, 1], periodic=(True, False)), "periodic must be"),
@@ -110,6 +113,21 @@ def test_copies_are_duplicates():
 def test_bad_arguments_are_named(arguments, message):
     with pytest.raises(ValueError, match=message):
         delone.Periodic([[0.0, 0, 0]], **arguments)
+
+
+def test_a_diagram_takes_a_box():
+    points = np.random.default_rng(6).random((20, 3))
+    v = delone.Voronoi(points, box=[1, 1, 1], periodic=(True, True, False))
+    assert v.volumes.sum() == pytest.approx(1, rel=1e-14) and len(v.nlist.indptr) == 21
+    assert (v.in_box.faces.indices < 0).any() and (v.nlist.indices >= 0).all()
+    assert copy.copy(v).points is v.points and "in a box" in repr(v)
+    with pytest.raises(AttributeError, match="polyhedra"):
+        _ = v.vertices
+    plain = delone.Voronoi(points)
+    with pytest.raises(AttributeError, match="give box="):
+        _ = plain.volumes
+    with pytest.raises(ValueError, match="for points in a box"):
+        delone.Voronoi(points, radii=np.ones(20))
 
 
 @pytest.mark.parametrize("periodic", [(False, False, False), (True, False, True), (True, True, True)])

@@ -111,7 +111,10 @@ class Neighbors:
 
 @final
 class Periodic:
-    """Points, weights unless all are equal, axes, which of them repeat, where the box begins, and the step of a decimal grid: none, 0 for one to be found."""
+    """Points, weights unless all are equal, axes, which of them repeat, where the box begins, and the step of a decimal grid.
+
+    The step is none, or 0 for one to be found.
+    """
 
     def __new__(
         cls,

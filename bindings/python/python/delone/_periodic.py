@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,9 +18,10 @@ from ._regular import as_weights
 class Faces(NamedTuple):
     """The faces of cells, as the rows of a sparse matrix: those of point i are ``indptr[i]:indptr[i + 1]``.
 
-    An entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to that,
-    `areas` its area, `vectors` goes from the point to the copy beyond. Both sides of a face have an entry; a point may be its own neighbor.
-    Walls of the box have the indices -1 and -2 at the beginning and the end of the first axis, then -3 to -6, and NaN as vectors.
+    An entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to
+    that, `areas` its area, `vectors` goes from the point to the copy beyond. Both sides of a face have an entry; a point may
+    be its own neighbor. Walls of the box have the indices -1 and -2 at the beginning and the end of the first axis, then -3 to
+    -6, and NaN as vectors.
     """
 
     indptr: NDArray[np.int64]
@@ -30,18 +32,19 @@ class Faces(NamedTuple):
 
 
 class Periodic:
-    """The triangulation of points and of all their copies in a box that repeats, in the plane or in space; in space also the cells.
+    """The triangulation of points and of all their copies in a box that repeats, in the plane or in space; in space also the
+    cells.
 
-    It is exact, and does not depend on the order of the points, nor on where the box begins. One point is enough. Of the points only
-    their places in the box count: they may be outside of it, and offsets are seen from where they are.
+    It is exact, and does not depend on the order of the points, nor on where the box begins. One point is enough. Of the
+    points only their places in the box count: they may be outside of it, and offsets are seen from where they are.
 
     Parameters
     ----------
     points : array_like of floats, shape (n, 2) or (n, 3)
         The points. All must be finite.
     box : array_like
-        The sides of a box; or in space six numbers (lx, ly, lz, xy, xz, yz), as LAMMPS has them for the axes (lx, 0, 0), (xy, ly, 0) and
-        (xz, yz, lz); or a matrix with an axis in each row, right-handed.
+        The sides of a box; or in space six numbers (lx, ly, lz, xy, xz, yz), as LAMMPS has them for the axes (lx, 0, 0), (xy,
+        ly, 0) and (xz, yz, lz); or a matrix with an axis in each row, right-handed.
     periodic : bool or sequence of bool
         Along which axes the box repeats. Along others simplices go on without bounds, and cells end at the walls of the box.
     radii : array_like of floats, shape (n,), optional
@@ -49,14 +52,14 @@ class Periodic:
     origin : array_like of d floats, optional
         Where the box begins, zeros by default: for the walls.
     grid : "auto" or float, optional
-        A step that coordinates are multiples of: crystals of decimals are exact then. "auto" takes the decimals of points and box, if they
-        have any within rounding.
+        A step that coordinates are multiples of: crystals of decimals are exact then. "auto" takes the decimals of points and
+        box, if they have any within rounding.
 
     Attributes
     ----------
     simplices, offsets : arrays of shape (m, d + 1) and (m, d + 1, d)
-        The points that are corners, in positive order, and how often each axis of the box is added to them: corner k of simplex j is at
-        ``points[simplices[j, k]] + offsets[j, k] @ box``. Each simplex stands for all its copies.
+        The points that are corners, in positive order, and how often each axis of the box is added to them: corner k of
+        simplex j is at ``points[simplices[j, k]] + offsets[j, k] @ box``. Each simplex stands for all its copies.
     neighbors, neighbor_offsets : arrays of shape (m, d + 1) and (m, d + 1, d)
         The simplex across from each corner, -1 where the triangulation ends, and what is to be added to all its offsets.
     edges, edge_offsets : arrays of shape (k, 2) and (k, d)
@@ -68,8 +71,8 @@ class Periodic:
     is_simplicial : bool
         Whether points alone name the simplices: no simplex has a point twice, and no two have the same points.
     volumes, areas : arrays of shape (n,)
-        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for duplicates,
-        hidden points, and cells beyond the walls.
+        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for
+        duplicates, hidden points, and cells beyond the walls.
     centroids : array of shape (n, 3)
         The centers of mass of the cells; NaN for those without volume.
     nlist : Faces
@@ -216,12 +219,12 @@ class Periodic:
         return Faces(before[indptr], indices[kept], offsets[kept], areas[kept], vectors[kept])
 
     def polyhedra(self) -> list[tuple[NDArray[np.float64], list[NDArray[np.int64]]]]:
-        """The cells as polyhedra: for each point the corners, and the faces as indices of corners, counter-clockwise seen from outside,
-        in the order of `faces`. Each is around the point where it was given."""
+        """The cells as polyhedra: for each point the corners, and the faces as indices of corners, counter-clockwise seen from
+        outside, in the order of `faces`. Each is around the point where it was given."""
         starts, corners, ends, numbers = self._core.polyhedra()
         rings = np.split(numbers, ends[1:-1]) if len(ends) > 1 else []
         rows = self.faces.indptr
-        both = zip(zip(starts, starts[1:], strict=False), zip(rows, rows[1:], strict=False), strict=True)
+        both = zip(pairwise(starts), pairwise(rows), strict=True)
         return [(corners[a:b], rings[c:d]) for (a, b), (c, d) in both]
 
     def __repr__(self) -> str:
@@ -232,9 +235,14 @@ class Periodic:
 def as_box(box: ArrayLike, ndim: int) -> NDArray[np.float64]:
     """The axes of a box, one a row, from its sides, from six numbers or from a matrix."""
     array = as_numbers(box, "box").astype(np.float64)
+    is_tilted = array.shape == (6,) and ndim == 3
+    if array.shape == (ndim,) or is_tilted:
+        for axis, side in enumerate(array[:ndim]):
+            if not 0 < side < np.inf:
+                raise ValueError(f"box has the side {side} along axis {axis}, counted from 0; it must be positive and finite")
     if array.shape == (ndim,):
         return np.diag(array)
-    if array.shape == (6,) and ndim == 3:
+    if is_tilted:
         lx, ly, lz, xy, xz, yz = array
         return np.array([[lx, 0, 0], [xy, ly, 0], [xz, yz, lz]])
     if array.shape == (ndim, ndim):

@@ -15,9 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-def as_weights(
-    weights: ArrayLike | None, count: int, what: str = "weights", one: str = "weight"
-) -> NDArray[np.float64]:
+def as_weights(weights: ArrayLike | None, count: int, what: str = "weights", one: str = "weight") -> NDArray[np.float64]:
     """One finite float64 for each point."""
     if weights is None:
         return np.zeros(count)

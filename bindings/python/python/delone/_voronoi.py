@@ -16,6 +16,7 @@ from ._delaunay import Delaunay
 from ._lists import lists
 from ._merge import as_merge, length_of, merged_centers
 from ._options import parse
+from ._periodic import Faces, Periodic
 from ._points import as_flag, as_numbers, as_points
 from ._polygons import rings_of_region
 
@@ -38,9 +39,14 @@ class Voronoi:
         Contracts sides of the diagram up to this length, in coordinate units: vertices that rounding of the points has parted are
         one again, as on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length
         have their vertex infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
+    box, periodic, radii, grid, origin : optional
+        In a box cells of points in space are cut, or it repeats: see `Periodic`, which takes the same. The diagram has
+        `volumes`, `areas`, `centroids`, `nlist` and `in_box` then, and not the attributes below.
 
     Attributes
     ----------
+    volumes, areas, centroids, nlist :
+        Of cells in a box, as `Periodic` has them, which `in_box` is.
     vertices : (nvertex, ndim) array
         The circumcenters of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
     ridge_points : (nridge, 2) array
@@ -77,8 +83,19 @@ class Voronoi:
         qhull_options: str | None = None,
         *,
         merge: float | str | None = None,
+        box: ArrayLike | None = None,
+        periodic: bool | Sequence[bool] = True,
+        radii: ArrayLike | None = None,
+        grid: str | float | None = None,
+        origin: ArrayLike | None = None,
     ) -> None:
         """Makes the diagram of points."""
+        if box is not None:
+            self.in_box = Periodic(points, box, periodic, radii, grid, origin)
+            self.ndim, self.npoints, self.furthest_site = self.in_box.ndim, self.in_box.npoints, False
+            return
+        if not (radii is None and grid is None and origin is None):
+            raise ValueError("radii, grid and origin are for points in a box: give box=, or see PowerDiagram")
         self._merge = as_merge(merge)
         usual = "" if as_flag(incremental, "incremental") else "Qz"
         self._has_empty = parse(qhull_options, usual).at_infinity
@@ -116,6 +133,37 @@ class Voronoi:
         if tri.furthest_site:
             is_empty = np.diff(self.region_indptr) == 0
             self.point_region[is_empty[self.point_region]] = -1
+
+    @property
+    def volumes(self) -> NDArray[np.float64]:
+        """The volumes of the cells in the box."""
+        return self.in_box.volumes
+
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """The areas of their surfaces."""
+        return self.in_box.areas
+
+    @property
+    def centroids(self) -> NDArray[np.float64]:
+        """Their centers of mass."""
+        return self.in_box.centroids
+
+    @property
+    def nlist(self) -> Faces:
+        """The faces between them."""
+        return self.in_box.nlist
+
+    def __getattr__(self, name: str) -> Any:
+        """Names what there is in a box alone, and what there is not."""
+        if name in {"in_box", "volumes", "areas", "centroids", "nlist"}:
+            raise AttributeError(f"{name} is for cells in a box: give box=")
+        if (
+            name in {"_tri", "vertices", "ridge_points", "ridge_indptr", "ridge_indices", "point_region"}
+            and "in_box" in self.__dict__
+        ):
+            raise AttributeError(f"cells in a box have no {name.strip('_')}: see in_box, its nlist and polyhedra()")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @cached_property
     def ridge_vertices(self) -> list[list[int]]:
@@ -156,7 +204,7 @@ class Voronoi:
     @property
     def points(self) -> NDArray[np.float64]:
         """The points, (npoints, ndim)."""
-        return self._tri.points
+        return self.in_box.points if "in_box" in self.__dict__ else self._tri.points
 
     @property
     def triangulation(self) -> Delaunay:
@@ -196,11 +244,15 @@ class Voronoi:
     def __copy__(self) -> Voronoi:
         """A diagram of its own of the same points."""
         made = type(self).__new__(type(self))
-        made.__dict__.update(self.__dict__, _tri=self._tri.copy())
+        made.__dict__.update(self.__dict__)
+        if "in_box" not in self.__dict__:
+            made._tri = self._tri.copy()
         return made
 
     def __repr__(self) -> str:
         """A line that says what there is."""
+        if "in_box" in self.__dict__:
+            return f"<delone.Voronoi: {self.npoints} points in a box>"
         return f"<delone.Voronoi: {self.npoints} points, {len(self.vertices)} vertices, {len(self.ridge_points)} ridges>"
 
 

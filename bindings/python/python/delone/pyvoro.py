@@ -1,8 +1,8 @@
 """Cells of points in space with the names of pyvoro: ``from delone import pyvoro``.
 
-What differs: cells are exact up to the rounding of their corners, so volumes add up to that of the box and both sides of a face have it.
-`dispersion` is not needed and not used. Points outside of a box that does not repeat have what is left of their cells inside of it, where pyvoro
-raises an error.
+What differs: cells are exact up to the rounding of their corners, so volumes add up to that of the box and both sides of a
+face have it. `dispersion` is not needed and not used. Points outside of a box that does not repeat have what is left of their
+cells inside of it, where pyvoro raises an error.
 """
 
 from __future__ import annotations
@@ -28,15 +28,16 @@ def compute_voronoi(
 ) -> list[dict[str, Any]]:
     """The cells of points in a box with these limits along each axis, as dictionaries.
 
-    Each has the `volume`, the point as `original`, the `vertices`, for each vertex those that it is joined to in `adjacency`, and `faces`
-    with their `vertices` and the `adjacent_cell`: a point, or -1 to -6 for the walls at the least and the largest x, then y, then z.
+    Each has the `volume`, the point as `original`, the `vertices`, for each vertex those that it is joined to in `adjacency`,
+    and `faces` with their `vertices` and the `adjacent_cell`: a point, or -1 to -6 for the walls at the least and the largest
+    x, then y, then z.
 
     Examples
     --------
     >>> from delone import pyvoro
     >>> cells = pyvoro.compute_voronoi([[1, 2, 3], [4, 5.5, 6]], [[0, 10], [0, 10], [0, 10]], 2.0)
     >>> round(sum(cell["volume"] for cell in cells), 9), len(cells[0]["faces"])
-    (1000.0, 7)
+    (1000.0, 6)
     """
     box = as_numbers(limits, "limits")
     if box.shape != (3, 2):
