@@ -9,6 +9,7 @@ fn main() {
     if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
         println!("cargo::rerun-if-changed=src/cgal_constrained.cpp");
         println!("cargo::rerun-if-changed=src/cgal_mesh.cpp");
+        println!("cargo::rerun-if-changed=src/cgal_periodic.cpp");
         println!("cargo::rerun-if-changed=src/cgal_weights.cpp");
         cc::Build::new()
             .cpp(true)
@@ -19,6 +20,7 @@ fn main() {
             .file("src/cgal.cpp")
             .file("src/cgal_constrained.cpp")
             .file("src/cgal_mesh.cpp")
+            .file("src/cgal_periodic.cpp")
             .file("src/cgal_weights.cpp")
             .compile("cgal_shim");
         println!("cargo::rustc-cfg=cgal");

@@ -44,6 +44,7 @@ TEXT
     compare --voronoi --size $((points / 10)) --runs 2 --kinds uniform,grid
     printf '\n## Voronoi cells in space\n\n'
     compare --cells3 --size $((points / 10)) --runs 2
+    compare --periodic --size 10000,$((points / 10)) --runs 2
     printf '\n## Weights: regular triangulations, in the plane and in space\n\n'
     compare --weights --size $((points / 10)) --runs 3
     printf '\n## Proximity graphs, beside the construction that they are made from\n\n'

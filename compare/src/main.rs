@@ -10,6 +10,7 @@ mod graphs;
 mod hull;
 mod memory;
 mod mesh;
+mod periodic;
 mod space;
 mod surface;
 mod tiles;
@@ -69,6 +70,9 @@ struct Args {
     /// Time Voronoi cells of space instead of building.
     #[arg(long)]
     cells3: bool,
+    /// Time periodic triangulations of space instead of building.
+    #[arg(long)]
+    periodic: bool,
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
@@ -161,6 +165,10 @@ fn compare(args: &Args) {
     }
     if args.cells3 {
         let wrong = args.size.iter().filter(|&&size| !cells3::run(size, args.runs)).count();
+        std::process::exit(i32::from(wrong > 0));
+    }
+    if args.periodic {
+        let wrong = args.size.iter().filter(|&&size| !periodic::run(size, args.runs)).count();
         std::process::exit(i32::from(wrong > 0));
     }
     if args.hull {

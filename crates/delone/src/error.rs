@@ -191,8 +191,9 @@ pub enum Error {
         /// Its fault.
         problem: LatticeProblem,
     },
-    /// A point that is more periods away from the origin than can be counted.
-    #[error("point {index} has the {} coordinate {value}, which is too many periods away", ["x", "y", "z"][*.axis])]
+    /// A point that is more periods away from the origin than can be counted, or so far beside a lattice of one or two axes that these vanish in its
+    /// rounding.
+    #[error("point {index} has the {} coordinate {value}, which is too far away for the lattice", ["x", "y", "z"][*.axis])]
     FarAway {
         /// The index of the point in the input.
         index: usize,

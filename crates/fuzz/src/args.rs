@@ -65,6 +65,8 @@ pub(crate) enum Mode {
     Weights,
     /// Alpha complexes and their shapes, with weights.
     Alphas,
+    /// Sites in boxes that repeat, with weights: spheres, orders, cells.
+    Periodic,
     /// Voronoi diagrams of all orders: regions, circles, points, cells, changes.
     Orders,
     /// Hulls, furthest and nearest sites, the smallest circle.

@@ -7,8 +7,8 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders, plane,
-    predicates, program, proximity, space, surfaces, tiles, weights,
+    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders,
+    periodic, plane, predicates, program, proximity, space, surfaces, tiles, weights,
 };
 
 /// An input of some attack.
@@ -74,6 +74,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Mesh, _) => made::<mesh::Mesh>(seed),
         (Mode::Alphas, 0) => made::<alphas::Planar>(seed),
         (Mode::Alphas, _) => made::<alphas::Spatial>(seed),
+        (Mode::Periodic, _) => made::<periodic::Boxes>(seed),
         (Mode::Orders, _) => made::<orders::Orders>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),

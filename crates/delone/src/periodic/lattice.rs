@@ -132,11 +132,20 @@ impl<const D: usize> Lattice<D> {
             }
         }
         let rounded = axes.map(|axis| std::array::from_fn(|k| in_steps(axis[k], steps[k]).unwrap_or(0)));
-        let reduced = basis.on_grid(&rounded, &steps)?;
+        let reduced =
+            basis.on_grid(&rounded, &steps).map_err(|error| far_away(points, &beside).unwrap_or(error))?;
         let origin = self.origin.map(|x| decimal.map_or(x, |grid| grid.index(x)));
         let walled = std::array::from_fn(|axis| (!self.periodic[axis]).then_some(axes[axis]));
         Ok(Prepared { decimal, steps, axes: rounded, reduced, origin, walled })
     }
+}
+
+/// The point that is furthest away along the axis along which the points are: beside it the lattice vanishes by rounding.
+fn far_away<const D: usize>(points: &[[f64; D]], beside: &[f64; D]) -> Option<Error> {
+    let axis = (0..D).filter(|&k| beside[k] > 0.0).max_by(|&i, &j| beside[i].total_cmp(&beside[j]))?;
+    let (index, point) =
+        points.iter().enumerate().max_by(|p, q| p.1[axis].abs().total_cmp(&q.1[axis].abs()))?;
+    Some(Error::FarAway { index, axis, value: point[axis] })
 }
 
 /// The least power of two that is not below a positive number.

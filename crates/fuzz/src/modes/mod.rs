@@ -13,6 +13,7 @@ pub(crate) mod mesh;
 pub(crate) mod mixtures;
 pub(crate) mod motion;
 pub(crate) mod orders;
+pub(crate) mod periodic;
 pub(crate) mod plane;
 pub(crate) mod predicates;
 pub(crate) mod program;
