@@ -102,6 +102,7 @@ mod book {
         Walks: "docs/learn/walks.md",
         Meshing: "docs/howto/meshing.md",
         Moving: "docs/howto/moving.md",
+        Periodic: "docs/howto/periodic.md",
         Constraints: "docs/howto/constraints.md",
         ComingFromRust: "docs/howto/coming-from-rust.md",
         ComingFromCpp: "docs/howto/coming-from-cpp.md",
