@@ -192,6 +192,8 @@ pub(super) struct Wrapped<const D: usize> {
     pub place: [f64; D],
     /// How often each vector of the reduced basis is to be added for the point itself.
     pub offset: [i64; D],
+    /// By how much a coordinate was rounded at most, in coordinate units.
+    pub rounding: f64,
 }
 
 impl<const D: usize> Prepared<D> {
@@ -201,11 +203,17 @@ impl<const D: usize> Prepared<D> {
     /// The axis along which it is too far away: more than 2^60 periods, or 2^100 steps.
     pub(super) fn wrap(&self, point: [f64; D]) -> Result<Wrapped<D>, usize> {
         const MOST_PERIODS: f64 = (1_u64 << 60) as f64;
-        let point = point.map(|x| self.decimal.map_or(x, |grid| grid.index(x)));
+        let given = point;
+        let mut point = point.map(|x| self.decimal.map_or(x, |grid| grid.index(x)));
         let mut steps = [0; D];
-        for axis in (0..D).filter(|&axis| self.steps[axis].is_some()) {
-            steps[axis] = in_steps(point[axis], self.steps[axis]).ok_or(axis)?;
+        for axis in 0..D {
+            if let Some(step) = self.steps[axis] {
+                steps[axis] = in_steps(point[axis], self.steps[axis]).ok_or(axis)?;
+                point[axis] = (point[axis] / step).round_ties_even() * step;
+            }
         }
+        let off = |k: usize| (self.length(point[k]) - given[k]).abs();
+        let rounding = (0..D).map(off).fold(0.0, f64::max);
         let mut offset = [0; D];
         // The first pass leaves what rounding of large quotients has left.
         for _ in 0..2 {
@@ -219,7 +227,7 @@ impl<const D: usize> Prepared<D> {
                 add(&mut steps, -(periods as i128), &vector.steps);
             }
         }
-        Ok(self.least(steps, &point, offset))
+        Ok(Wrapped { rounding, ..self.least(steps, &point, offset) })
     }
 
     /// Of all places in the cell, or beside it by rounding, that differ by a vector of the lattice, the least.
@@ -229,7 +237,7 @@ impl<const D: usize> Prepared<D> {
         let is_in = |place: &[f64; D]| {
             self.reduced.iter().all(|v| (-NEAR_PERIODS..=1.0 + NEAR_PERIODS).contains(&v.fraction(place)))
         };
-        let mut best = Wrapped { place: self.at(&steps, point), offset };
+        let mut best = Wrapped { place: self.at(&steps, point), offset, rounding: 0.0 };
         let fractions = self.reduced.iter().map(|v| v.fraction(&best.place));
         if fractions.into_iter().all(|f| f > NEAR_PERIODS && f < 1.0 - NEAR_PERIODS) {
             return best;
@@ -247,7 +255,7 @@ impl<const D: usize> Prepared<D> {
             let place = self.at(&moved, point);
             if is_in(&place) && (!is_known || place < best.place) {
                 is_known = true;
-                best = Wrapped { place, offset: other };
+                best = Wrapped { place, offset: other, ..best };
             }
         }
         best

@@ -72,7 +72,7 @@ pub struct Periodic<T: PeriodicKind<D, N>, const D: usize, const N: usize> {
     lattice: Prepared<D>,
     /// Where the sites are in the cell of the reduced basis.
     wrapped: Vec<Wrapped<D>>,
-    moved: f64,
+    rounding: f64,
     quotient: Quotient<T, D, N>,
 }
 
@@ -142,19 +142,15 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
             }
         }
         let lattice = lattice.prepare(points)?;
-        let mut wrapped = Vec::with_capacity(points.len());
-        let mut moved = 0.0_f64;
-        for (index, &point) in points.iter().enumerate() {
-            let at =
-                lattice.wrap(point).map_err(|axis| Error::FarAway { index, axis, value: point[axis] })?;
-            let back = lattice.far(&at.place, lattice.in_axes(at.offset));
-            moved = (0..D).fold(moved, |most, k| most.max((back[k] - point[k]).abs()));
-            wrapped.push(at);
-        }
+        let wrap = |(index, &point): (usize, &[f64; D])| {
+            lattice.wrap(point).map_err(|axis| Error::FarAway { index, axis, value: point[axis] })
+        };
+        let wrapped = points.iter().enumerate().map(wrap).collect::<Result<Vec<_>, _>>()?;
+        let rounding = wrapped.iter().map(|at| at.rounding).fold(0.0, f64::max);
         let places: Vec<[f64; D]> = wrapped.iter().map(|at| at.place).collect();
         let weights: Vec<f64> = weights.iter().map(|&w| lattice.weight(w)).collect();
         let quotient = triangulate::<T, D, N>(&lattice, &places, &weights)?;
-        Ok(Self { lattice, wrapped, moved, quotient })
+        Ok(Self { lattice, wrapped, rounding, quotient })
     }
 
     /// The dimension of the span of all copies. Below D there are no simplices.
@@ -257,7 +253,7 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
     /// # Panics
     /// For an id that is no site.
     pub fn position(&self, (site, offset): Image<D>) -> [f64; D] {
-        let Wrapped { place, offset: from } = self.wrapped[site.index()];
+        let Wrapped { place, offset: from, .. } = self.wrapped[site.index()];
         let from = self.lattice.in_axes(from);
         self.lattice.far(&place, std::array::from_fn(|k| offset[k] + from[k]))
     }
@@ -265,7 +261,7 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
     /// By how much a coordinate of a point was rounded at most, so that copies are exact, in coordinate units: zero for integers and other
     /// numbers with few bits.
     pub fn rounding(&self) -> f64 {
-        self.moved
+        self.rounding
     }
 
     /// The step of the decimal grid that was taken, if one was.

@@ -21,6 +21,9 @@ pub(crate) struct Boxes;
 /// Parts of the sides of the grid that most sites are on: few, so that many sites tie.
 const PARTS: usize = 4;
 
+/// Positions of copies within so many times the largest number of the box are exact.
+const FAR: f64 = (1 << 20) as f64;
+
 /// Volumes may differ by this part of the box, by rounding of corners.
 const ROUNDING: f64 = 1e-9;
 
@@ -100,7 +103,11 @@ fn judge_kind<T: CellularKind>(
         Err(Error::FarAway { .. } | Error::TooManyPoints { .. }) => return Ok(()),
         built => built.map_err(|error| error.to_string())?,
     };
-    if t.rounding() == 0.0 {
+    // Positions of copies far away are rounded.
+    let is_near = |p: &[f64; 3]| {
+        p.iter().all(|x| x.abs() < FAR * axes.as_flattened().iter().fold(0.0, |m, a| a.abs().max(m)))
+    };
+    if t.rounding() == 0.0 && points.iter().all(is_near) {
         judge_spheres(&t, weights, periodic)?;
     }
     for number in 0..t.simplex_count() {

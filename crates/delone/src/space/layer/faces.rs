@@ -35,7 +35,7 @@ impl<W: Lift> Layer<W> {
         let (mesh, dimension) = (&self.mesh, self.dimension());
         let ghosts = mesh.cells().filter(move |&t| dimension == Dimension::Space && mesh.is_ghost(t));
         let outer = ghosts.map(|t| mesh.facet_corners(t.facet(3)));
-        let flat = self.facets().filter(move |_| dimension == Dimension::Plane);
+        let flat = (dimension == Dimension::Plane).then(|| self.facets()).into_iter().flatten();
         outer.chain(flat.map(|f| mesh.facet_corners(f)))
     }
 
