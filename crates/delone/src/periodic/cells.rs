@@ -48,7 +48,7 @@ pub struct PeriodicCell3<'a, T: CellularKind> {
     site: VertexId,
 }
 
-/// What is beyond a face of a cell. There is no third, so a match may name both.
+/// The cell or the wall beyond a face. There is no third, so a match may name both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AcrossPeriodic3 {
     /// The cell of this copy of a site.
@@ -167,7 +167,7 @@ impl<'a, T: CellularKind> PeriodicCell3<'a, T> {
 }
 
 impl<T: CellularKind> PeriodicFace3<'_, T> {
-    /// What is beyond it.
+    /// The cell or the wall beyond it.
     pub fn across(self) -> AcrossPeriodic3 {
         let PeriodicCell3 { triangulation, site, of, .. } = self.of;
         match self.face.across() {
