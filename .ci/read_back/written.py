@@ -3,8 +3,11 @@
 A judge is a function of the file's ending, named for its contents, that raises where the reader sees something else.
 """
 
+import collections
 import contextlib
 import io
+import itertools
+import json
 import xml.etree.ElementTree as ElementTree
 
 import geopandas
@@ -283,6 +286,59 @@ def cells_of(kind):
     assert shapely.intersects_xy(cells, *flat.T).all(), "sites outside of their cells"
 
 
+def volume_of(points, faces):
+    """The volume inside of polygons, by the tetrahedra between the origin and their triangles."""
+    rows = [(face[0], one, two) for face in faces for one, two in itertools.pairwise(face[1:])]
+    return np.linalg.det(np.asarray(points, float)[rows]).sum() / 6
+
+
+def polyhedra_of(kind):
+    """Cells of a ball of points, and of a box that repeats: each closed, with its volume; they fill what they should."""
+    low, high = ball.min(0), ball.max(0)
+    for name, words, whole in (("clipped", (), np.prod(high - low)), ("repeated", ("--periodic", "2,2,2,0.5,0,-0.5"), 8)):
+        file = f"{name}.{kind}"
+        run("voronoi", "ball.npy", "--dim", 3, *words, "-o", file)
+        run("voronoi", "ball.npy", "--dim", 3, *words, "-o", f"{name}.npy")
+        numbers = np.load(FOLDER / f"{name}.npy")
+        assert numbers.shape == (len(ball), 5) and abs(numbers[:, 0].sum() - whole) < 1e-9
+        volumes = {}
+        if kind == "csv":
+            read = pandas.read_csv(FOLDER / file)
+            assert np.array_equal(read.iloc[:, 1:].to_numpy(), numbers) and np.array_equal(read.site, np.arange(len(ball)))
+        elif kind == "json":
+            cells = json.loads((FOLDER / file).read_text())
+            assert np.array_equal([cell["position"] for cell in cells], ball)
+            volumes = {cell["site"]: volume_of(cell["vertices"], [f["corners"] for f in cell["faces"]]) for cell in cells}
+        elif kind == "vtu":
+            mesh = by_meshio(file)
+            for block, sites, told in zip(mesh.cells, mesh.cell_data["site"], mesh.cell_data["volume"], strict=True):
+                for faces, site, volume in zip(block.data, sites, told, strict=True):
+                    volumes[site] = volume_of(mesh.points, faces)
+                    assert abs(volume - volumes[site]) < 1e-9
+            grid = pyvista.read(FOLDER / file)
+            for number, site in enumerate(grid["site"]):
+                surface = grid.extract_cells(number).extract_surface(algorithm="dataset_surface").triangulate()
+                assert surface.n_open_edges == 0 and abs(surface.volume - volumes[site]) < 1e-9
+        elif kind == "ply":
+            mesh = trimesh.load(FOLDER / file, process=False)
+            data = mesh.metadata["_ply_raw"]["face"]["data"]
+            cells = collections.defaultdict(list)
+            for face, site in zip(data["vertex_indices"], np.ravel(data["site"]), strict=True):
+                cells[int(site)] += [(face[0], *pair) for pair in itertools.pairwise(face[1:])]
+            for site, faces in cells.items():
+                cell = trimesh.Trimesh(mesh.vertices, faces, process=False)
+                assert cell.is_watertight and cell.is_winding_consistent
+                volumes[site] = cell.volume
+            assert pyvista.read(FOLDER / file).n_cells == len(data["site"])
+        elif kind == "obj":
+            scene = trimesh.load(FOLDER / file, split_objects=True, group_material=False)
+            for title, cell in scene.geometry.items():
+                assert cell.is_watertight and cell.is_winding_consistent
+                volumes[int(title.removeprefix("site_"))] = cell.volume
+        if kind not in ("csv", "npy"):
+            assert np.allclose([volumes[site] for site in range(len(ball))], numbers[:, 0], rtol=0, atol=1e-9)
+
+
 def edges_of(kind):
     """A spanning tree: edges that join all points."""
     run("graph", "flat.npy", "--kind", "spanning-tree", "-o", f"edges.{kind}")
@@ -407,6 +463,7 @@ JUDGES = {
     "tetrahedra": tetrahedra_of,
     "surfaces in space": surfaces_of,
     "Voronoi cells": cells_of,
+    "Voronoi cells in space": polyhedra_of,
     "edges": edges_of,
     "triangles of polygons": patches_of,
     "lines and polygons": lines_of,

@@ -36,6 +36,7 @@ mod orders;
 mod outcome;
 mod place;
 mod polygons;
+mod polyhedra;
 mod powers;
 #[doc(hidden)]
 pub mod progress;

@@ -1,4 +1,4 @@
-//! `delone voronoi`: clipped cells as polygons and pictures.
+//! `delone voronoi`: clipped cells as polygons and pictures; those of space are in `polyhedra`.
 
 use std::path::Path;
 
@@ -10,6 +10,7 @@ use crate::clip::{is_polygon, merge, not_merged, polygon_region, refuse_numbers,
 use crate::files;
 use crate::message::Failure;
 use crate::orders;
+use crate::polyhedra;
 use crate::powers;
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -18,6 +19,15 @@ use crate::stats::Stats;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse_numbers(args)?;
+    if !args.bounds.is_empty() && args.clip != Path::new("box") {
+        return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
+    }
+    if args.dim.is_space() {
+        return polyhedra::run(args, quiet);
+    }
+    if let Some(option) = args.space.option() {
+        return Err(Failure::usage(format!("{option} is for cells in space"), "add --dim 3"));
+    }
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {
@@ -34,9 +44,6 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         files::keep_attributes(Contents::Cells);
     }
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
-    if !args.bounds.is_empty() && args.clip != Path::new("box") {
-        return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
-    }
     let mut stats = Stats::start();
     if args.weights.given().is_some() || args.areas.is_some() {
         return powers::run(args, &outputs, sites_format, stats, quiet);

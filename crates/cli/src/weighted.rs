@@ -89,15 +89,7 @@ impl<R: Room> Weighted<R> {
         let triangulation = R::regular(&points, &weights, algorithm)
             .map_err(|error| Failure::points(&input.label(), &error))?;
         drop(phase);
-        stats.phase("build");
-        room::remark(&triangulation, quiet);
-        let hidden = triangulation.hidden().count();
-        if hidden > 0 {
-            let (is, site) = if hidden == 1 { ("is", "site") } else { ("are", "sites") };
-            note(quiet, format_args!("{hidden} {site} {is} hidden by others: no point is nearest to them"));
-        }
-        stats.triangulation(&triangulation, triangulation.counters());
-        stats.set("hidden", hidden);
+        tell(&triangulation, stats, quiet);
         Ok(Self { triangulation, points, about })
     }
 
@@ -126,6 +118,24 @@ impl<R: Room> Weighted<R> {
         drop(phase);
         stats.phase("write");
         Ok(())
+    }
+}
+
+/// Ends the construction of a triangulation, and tells what a user should know of it.
+pub(crate) fn tell(triangulation: &impl Regular, stats: &mut Stats, quiet: bool) {
+    stats.phase("build");
+    room::remark(triangulation, quiet);
+    let hidden = triangulation.hidden().count();
+    tell_hidden(hidden, quiet);
+    stats.triangulation(triangulation, triangulation.counters());
+    stats.set("hidden", hidden);
+}
+
+/// Tells that so many sites have no cell.
+pub(crate) fn tell_hidden(hidden: usize, quiet: bool) {
+    if hidden > 0 {
+        let (is, site) = if hidden == 1 { ("is", "site") } else { ("are", "sites") };
+        note(quiet, format_args!("{hidden} {site} {is} hidden by others: no point is nearest to them"));
     }
 }
 

@@ -27,6 +27,7 @@ mod narrow;
 mod outputs;
 mod outside;
 mod place;
+mod polyhedra;
 mod program;
 mod rasters;
 mod resume;

@@ -82,6 +82,8 @@ pub enum Format {
     GeoJson,
     /// GeoJSON with a feature a line.
     GeoJsonLines,
+    /// JSON that is no GeoJSON. It is written alone: `json` names GeoJSON where that is read or can be written.
+    Json,
     /// FlatGeobuf.
     FlatGeobuf,
     /// GeoPackage.
@@ -192,6 +194,7 @@ impl Format {
             | Self::Off
             | Self::Stl
             | Self::Vtu
+            | Self::Json
             | Self::Msh
             | Self::Inp => Said::Not,
             // There are no coordinates in it, or nobody looks for their meaning.
@@ -227,6 +230,7 @@ impl Format {
     pub fn keeps_attributes(self, contents: Contents) -> bool {
         match contents {
             Contents::Cells | Contents::Answers => self == Self::Text || self.has_layers(),
+            Contents::Polyhedra => matches!(self, Self::Text | Self::Json | Self::Vtu),
             Contents::Triangles | Contents::Patches => self == Self::Vtu || self.has_layers(),
             // Those of the input beside triangles, which want a layer of their own.
             Contents::Lines => self == Self::GeoPackage,

@@ -34,6 +34,7 @@ mod output;
 mod patches;
 mod paths;
 pub mod picture;
+mod polyhedra;
 mod raster;
 mod solid;
 mod xml;
@@ -55,6 +56,7 @@ pub use formats::edges::{Edges, write_edges};
 pub use formats::las::{LAS_CLASSES, LasFilter, LasFlag, Returns};
 pub use formats::npy::{Element, write_array};
 pub use formats::poly::{Beside, has_points_beside};
+pub use formats::polyhedra::write_polyhedra;
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing, Rings};
 pub use input::{decompressed, trust_compressed};
@@ -68,6 +70,7 @@ pub use output::{
 };
 pub use patches::{Patches, write_patches};
 pub use paths::{beside, open, open_as, side};
+pub use polyhedra::Polyhedra;
 pub use raster::{
     ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
     ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, heed_sides, read_raster,

@@ -5,19 +5,21 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use delone::surface::Grid;
-use delone::{Delaunay2, Delaunay3, Region2};
+use delone::{Delaunay2, Delaunay3, Region2, Region3};
 use delone_io::{
-    Contents, ContourMap, Diagram, Direction, Edges, Error, Format, Graph, Mesh, Patches, RasterInfo,
-    RasterWriter, ReadOptions, Solid, Source, picture, read_areas, read_chunks, read_graph, read_numbers,
-    read_points, read_raster, read_rings, read_segments, read_tetrahedra, read_triangles, write_contours,
-    write_diagram, write_edges, write_filtration, write_graph, write_indices, write_mesh, write_patches,
-    write_points, write_solid,
+    Contents, ContourMap, Diagram, Direction, Edges, Error, Format, Graph, Mesh, Patches, Polyhedra,
+    RasterInfo, RasterWriter, ReadOptions, Solid, Source, picture, read_areas, read_chunks, read_graph,
+    read_numbers, read_points, read_raster, read_rings, read_segments, read_tetrahedra, read_triangles,
+    write_contours, write_diagram, write_edges, write_filtration, write_graph, write_indices, write_mesh,
+    write_patches, write_points, write_polyhedra, write_solid,
 };
 
 #[test]
 fn names_are_of_one_format_each() {
     let mut seen = Vec::new();
-    for format in Format::all() {
+    // JSON of another kind is written alone, where GeoJSON cannot be.
+    assert_eq!("json".parse::<Format>().ok(), Some(Format::GeoJson));
+    for format in Format::all().filter(|&format| format != Format::Json) {
         assert!(!format.title().is_empty());
         for &name in format.names().into_iter().flatten() {
             assert!(!seen.contains(&name), "{name} is of two formats");
@@ -124,6 +126,12 @@ fn what_is_written_is_in_the_table() {
                 Contents::Cells => {
                     let diagram = Diagram { triangulation: &plane, cells: &cells, crs: None, features: None };
                     is_refused(write_diagram(out, format, &diagram, 20), format, contents)
+                }
+                Contents::Polyhedra => {
+                    let region = Region3::cuboid([0.0; 3], [4.0; 3]).expect("a box");
+                    let cells = space.voronoi().clip(&region);
+                    let cells = Polyhedra::of_cells(&solid, &cells, None);
+                    is_refused(write_polyhedra(out, format, &cells), format, contents)
                 }
                 Contents::Edges => {
                     // Pictures of edges are drawn with the triangulation below.

@@ -7,6 +7,12 @@ pub(crate) const IN_THE_PLANE: &[Contents] = &[Contents::Lines, Contents::Patche
 /// Surfaces of space, or their triangles.
 pub(crate) const IN_SPACE: &[Contents] = &[Contents::Surfaces, Contents::Indices];
 
+/// Cells of the plane or of space.
+pub(super) fn cells() -> String {
+    let (flat, solid) = (written(&[Contents::Cells]), written(&[Contents::Polyhedra]));
+    format!("Output file (in the plane {flat}; in space {solid}), or - for standard output; may be repeated")
+}
+
 /// The formats that one of these is written to.
 pub fn written(any: &[Contents]) -> String {
     Format::with(any, Direction::Written)

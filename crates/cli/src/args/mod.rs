@@ -9,6 +9,7 @@ mod graph;
 mod heights;
 mod las;
 mod mesh;
+mod periodic;
 mod place;
 mod points;
 mod polygons;
@@ -38,6 +39,7 @@ pub use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use heights::{ContoursArgs, SimplifyArgs};
 pub use las::LasArgs;
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
+pub(crate) use periodic::{GridChoice, PeriodicArgs};
 pub(crate) use place::PlaceArgs;
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
@@ -93,7 +95,7 @@ pub(crate) enum Command {
     Furthest(FurthestArgs),
     /// Alpha shapes of points, with weights or without, and filtrations.
     Alpha(AlphaArgs),
-    /// Voronoi cells, clipped, as polygons or as a picture.
+    /// Voronoi cells in the plane, clipped, and in space, clipped or in a box that repeats.
     Voronoi(VoronoiArgs),
     /// Lines of equal height of points with heights or rasters, and the areas between them.
     Contours(ContoursArgs),

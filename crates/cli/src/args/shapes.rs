@@ -8,7 +8,7 @@ use delone_io::picture::Camera;
 use delone_io::{Contents, Format};
 
 use super::formats;
-use super::{DimArgs, GraphArgs, InputArgs, WeightArgs, WktArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, PeriodicArgs, WeightArgs, WktArgs, length};
 use crate::message::Failure;
 
 /// Convex hull.
@@ -107,27 +107,36 @@ impl CameraArgs {
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
   delone voronoi shops.csv --order 3 -o three-nearest.geojson
   delone voronoi shops.csv --areas customers -o districts.geojson
+  delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
+  delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
 for each set of sites that are nearest somewhere, `sites` for `site`. CSV has the same in the columns `site,area,wkt`: GIS find the geometry by
-the name `wkt`; several sites are apart by spaces. Well-known text and binary hold the geometries alone, empty ones too.")]
+the name `wkt`; several sites are apart by spaces. Well-known text and binary hold the geometries alone, empty ones too.
+In space csv and npy have a row for each input point: volume, area and the three coordinates of the centroid, in csv after `site`. json has an object
+for each input point, with `vertices` and `faces`: the corners of each, `neighbor` (null for the wall of a box, `wall` from 0: low x, high x,
+low y, ...), `area`, and with --periodic `offset`, how many axes of the box away the neighbor is. vtu has polyhedra with the arrays `site`, `volume` and `area`;
+ply and obj have polygons, those between two cells once for each of the two, in ply with `site` and `neighbor`, in obj an object for
+each cell. Cells of a box that repeats are around the points as these were given.")]
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Cells]))]
+    #[arg(long, short, value_name = "OUT", required = true, help = formats::cells())]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
     #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    #[command(flatten)]
     pub(crate) wkt: WktArgs,
-    /// The region to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
-    /// corners of one polygon (any format of points).
+    /// The region to clip to: `box`, `hull` (the convex hull of the sites), or in the plane a file with polygons (geojson) or with
+    /// the corners of one polygon (any format of points).
     #[arg(long, value_name = "REGION", default_value = "box")]
     pub(crate) clip: PathBuf,
-    /// The box to clip to [default: the bounding box of the sites].
+    /// The box to clip to, in space of six numbers X0,Y0,Z0,X1,Y1,Z1 [default: the bounding box of the sites].
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) bounds: Vec<f64>,
     /// Contract sides of cells up to this length, in coordinate units: corners become one that rounding has parted. `auto` is 2^-40 of the
@@ -152,6 +161,8 @@ pub(crate) struct VoronoiArgs {
     /// text input by name or number from 1.
     #[arg(long, value_name = "equal|FILE|COLUMN", conflicts_with_all = ["weights", "radii", "order"], help_heading = "Weights")]
     pub(crate) areas: Option<String>,
+    #[command(flatten)]
+    pub(crate) space: PeriodicArgs,
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,

@@ -109,7 +109,7 @@ pub(super) fn tell(quiet: bool) {
         if !whose.is_empty() {
             let what = format!("the attributes of {whose} are left out: {}", names.join(", "));
             lost(quiet, format_args!("{}: {what}", path.display()));
-        } else if known.have_infinities && format == Format::GeoJson {
+        } else if known.have_infinities && matches!(format, Format::GeoJson | Format::Json) {
             lost(quiet, format_args!("{}: infinite values are null in it", path.display()));
         }
     }

@@ -70,11 +70,23 @@ pub fn outputs(
     stats: Option<&Path>,
     inputs: &[&Path],
 ) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    outputs_of(paths, to, stats, inputs, |_, format| format)
+}
+
+/// [`outputs`], of contents for which formats have other names.
+pub(crate) fn outputs_of(
+    paths: &[PathBuf],
+    to: Option<Format>,
+    stats: Option<&Path>,
+    inputs: &[&Path],
+    renamed: impl Fn(&Path, Format) -> Format,
+) -> Result<Vec<(PathBuf, Format)>, Failure> {
     keep_apart(inputs, paths.iter().map(PathBuf::as_path).chain(stats))?;
     let by_extension = |path: &PathBuf| {
         // With several outputs, --to is for those that do not tell by themselves.
         let known = if paths.len() > 1 { Format::of(path).ok() } else { None };
-        Ok((path.clone(), known.map_or_else(|| format(path, to, "--to"), Ok)?))
+        let format = known.map_or_else(|| format(path, to, "--to"), Ok)?;
+        Ok((path.clone(), renamed(path, format)))
     };
     let outputs = paths.iter().map(by_extension).collect::<Result<Vec<_>, _>>()?;
     systems::expect(&outputs);

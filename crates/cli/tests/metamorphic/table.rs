@@ -328,6 +328,8 @@ pub(super) const SPACE: &[Row] = &[
         g.run("hull p.csv --dim 3 -o h.csv -o h.obj");
         [facets(g, "h.csv"), g.obj("h.obj")].concat()
     }),
+    ("voronoi --dim 3", |g| polyhedra(g, "")),
+    ("voronoi --dim 3 --radii", |g| polyhedra(g, "--radii r --clip hull")),
     ("graph --dim 3 --kind gabriel", |g| edges(g, "--dim 3 --kind gabriel")),
     ("graph --dim 3 --kind relative-neighbors", |g| edges(g, "--dim 3 --kind relative-neighbors")),
     ("graph --dim 3 --kind spanning-tree", |g| edges(g, "--dim 3 --kind spanning-tree")),
@@ -353,6 +355,24 @@ pub(super) const SPACE: &[Row] = &[
         drawn(g, "d.svg")
     }),
 ];
+
+/// The faces of cells, after the site on either side.
+fn polyhedra(g: &Given, options: &str) -> Vec<Shape> {
+    g.run(&format!("voronoi p.csv --dim 3 {options} -o c.json"));
+    let list = |value: &serde_json::Value| value.as_array().cloned().expect("a list");
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let mut shapes = Vec::new();
+    for cell in list(&g.json("c.json")) {
+        let vertices: Vec<Point> =
+            list(&cell["vertices"]).iter().map(|p| g.back([0, 1, 2].map(|k| number(&p[k])))).collect();
+        for face in list(&cell["faces"]) {
+            let sites = [&cell["site"], &face["neighbor"]].into_iter().filter_map(serde_json::Value::as_f64);
+            let ring = list(&face["corners"]).iter().map(|i| vertices[number(i) as usize]).collect();
+            shapes.push(sites.flat_map(|site| g.point(site)).chain(g.cycle(ring)).collect());
+        }
+    }
+    shapes
+}
 
 /// Values that are radii.
 fn space_values(g: &Given, options: &str) -> Vec<Shape> {

@@ -39,6 +39,8 @@ pub enum Contents {
     Surfaces,
     /// Voronoi cells.
     Cells,
+    /// Voronoi cells of space.
+    Polyhedra,
     /// Edges between points, with their lengths.
     Edges,
     /// Triangles of polygons.
@@ -70,6 +72,7 @@ impl Contents {
         Self::Tetrahedra,
         Self::Surfaces,
         Self::Cells,
+        Self::Polyhedra,
         Self::Edges,
         Self::Patches,
         Self::Contours,
@@ -96,6 +99,7 @@ impl fmt::Display for Contents {
             Self::Tetrahedra => "tetrahedra",
             Self::Surfaces => "surfaces in space",
             Self::Cells => "Voronoi cells",
+            Self::Polyhedra => "Voronoi cells in space",
             Self::Edges => "edges",
             Self::Patches => "triangles of polygons",
             Self::Contours => "contours",

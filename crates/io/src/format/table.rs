@@ -2,7 +2,7 @@
 
 use super::Contents::{
     Answers, Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points,
-    Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
+    Polyhedra, Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
@@ -62,7 +62,7 @@ pub(super) const TABLE: &[Row] = &[
             numbers: Some(list::read),
             ..Readers::NONE
         },
-        writes: &[Points, Numbers, Indices, Answers, Cells, Edges, Patches, Filtrations],
+        writes: &[Points, Numbers, Indices, Answers, Cells, Polyhedra, Edges, Patches, Filtrations],
     },
     Row {
         format: Format::Pts,
@@ -87,7 +87,7 @@ pub(super) const TABLE: &[Row] = &[
             rasters: Some(raster::read_npy),
             ..Readers::NONE
         },
-        writes: &[Points, Numbers, Indices, Triangles, Tetrahedra, Edges, Patches, Rasters],
+        writes: &[Points, Numbers, Indices, Triangles, Tetrahedra, Polyhedra, Edges, Patches, Rasters],
     },
     Row {
         format: Format::Npz,
@@ -213,7 +213,7 @@ pub(super) const TABLE: &[Row] = &[
             triangles: Some(ply::read_triangles),
             ..Readers::NONE
         },
-        writes: &[Points, Triangles, Tetrahedra, Surfaces, Patches],
+        writes: &[Points, Triangles, Tetrahedra, Surfaces, Polyhedra, Patches],
     },
     Row {
         format: Format::Obj,
@@ -227,7 +227,7 @@ pub(super) const TABLE: &[Row] = &[
             triangles: Some(obj::read_triangles),
             ..Readers::NONE
         },
-        writes: &[Points, Triangles, Tetrahedra, Surfaces, Patches],
+        writes: &[Points, Triangles, Tetrahedra, Surfaces, Polyhedra, Patches],
     },
     Row {
         format: Format::Off,
@@ -255,7 +255,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["vtu"],
         also: &[],
         readers: OF_VTK,
-        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Patches],
+        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Polyhedra, Patches],
     },
     Row {
         format: Format::Vtp,
@@ -303,6 +303,14 @@ pub(super) const TABLE: &[Row] = &[
         also: &["geojsons", "ndjson"],
         readers: OF_GEOJSON,
         writes: &[],
+    },
+    Row {
+        format: Format::Json,
+        title: "cells of space as JSON; other `.json` files are GeoJSON",
+        names: &["json"],
+        also: &[],
+        readers: Readers::NONE,
+        writes: &[Polyhedra],
     },
     Row {
         format: Format::FlatGeobuf,

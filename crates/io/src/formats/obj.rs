@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use super::in_space;
 use super::lines::{Line, Lines};
 use crate::error::{excerpt, listed};
+use crate::polyhedra::Polyhedra;
 use crate::{Cloud, Crs, Error, Graph, Shape, Source};
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
@@ -133,6 +134,25 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     }
     for [a, b, c] in shape.triangles() {
         writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1)?;
+    }
+    Ok(())
+}
+
+/// Writes cells as objects of polygons.
+pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Result<()> {
+    if let Some(number) = cells.crs.and_then(|crs| crs.epsg) {
+        writeln!(out, "# crs EPSG:{number}")?;
+    }
+    for [x, y, z] in &cells.vertices {
+        writeln!(out, "v {x:?} {y:?} {z:?}")?;
+    }
+    for site in cells.present() {
+        writeln!(out, "o site_{site}")?;
+        for (_, ring) in cells.faces(site) {
+            write!(out, "f")?;
+            ring.iter().try_for_each(|corner| write!(out, " {}", u64::from(*corner) + 1))?;
+            writeln!(out)?;
+        }
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Stanford polygons: read by the `ply-rs-bw` crate, ascii and binary; written in binary.
+//! Stanford polygons: read by the `ply-rs-bw` crate, ascii and binary; written in binary, polygons in ascii.
 
 use std::io::{self, BufRead, Write};
 
@@ -9,6 +9,7 @@ use ply_rs_bw::ply::{
 
 use super::in_space;
 use crate::error::excerpt;
+use crate::polyhedra::{Beyond, Polyhedra};
 use crate::{Cloud, Crs, Error, Shape, Source};
 
 struct Vertex([f64; 3]);
@@ -181,6 +182,30 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     Ok(())
 }
 
+/// Writes the faces of cells with the site of each, and the site beyond: -1 for a wall. As text: readers of binary files take it that all
+/// faces have as many corners as the first.
+pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Result<()> {
+    let most = cells.present().flat_map(|site| cells.faces(site)).map(|face| face.1.len()).max();
+    let kind = if most.unwrap_or(0) > usize::from(u8::MAX) { "uint" } else { "uchar" };
+    vertex_header(out, "ascii", cells.vertices.len(), cells.crs)?;
+    writeln!(out, "element face {}\nproperty list {kind} uint vertex_indices", cells.face_count())?;
+    writeln!(out, "property int site\nproperty int neighbor\nend_header")?;
+    for [x, y, z] in &cells.vertices {
+        writeln!(out, "{x:?} {y:?} {z:?}")?;
+    }
+    for site in cells.present() {
+        for (face, ring) in cells.faces(site) {
+            write!(out, "{}", ring.len())?;
+            ring.iter().try_for_each(|corner| write!(out, " {corner}"))?;
+            match face.beyond {
+                Beyond::Wall(_) => writeln!(out, " {site} -1")?,
+                Beyond::Site(other) | Beyond::Copy(other, _) => writeln!(out, " {site} {other}")?,
+            }
+        }
+    }
+    Ok(())
+}
+
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     header(out, points.len(), None, None)?;
     points.iter().try_for_each(|p| write_position(out, in_space(p)))
@@ -193,17 +218,22 @@ fn header(
     faces: Option<(usize, bool)>,
     crs: Option<&Crs>,
 ) -> io::Result<()> {
-    write!(out, "ply\nformat binary_little_endian 1.0\n")?;
-    if let Some(number) = crs.and_then(|crs| crs.epsg) {
-        writeln!(out, "comment crs EPSG:{number}")?;
-    }
-    writeln!(out, "element vertex {points}")?;
-    write!(out, "property double x\nproperty double y\nproperty double z\n")?;
+    vertex_header(out, "binary_little_endian", points, crs)?;
     if let Some((count, have_regions)) = faces {
         write!(out, "element face {count}\nproperty list uchar uint vertex_indices\n")?;
         write!(out, "{}", if have_regions { "property double region\n" } else { "" })?;
     }
     writeln!(out, "end_header")
+}
+
+/// The header of so many points, open for more elements.
+fn vertex_header(out: &mut dyn Write, encoding: &str, points: usize, crs: Option<&Crs>) -> io::Result<()> {
+    write!(out, "ply\nformat {encoding} 1.0\n")?;
+    if let Some(number) = crs.and_then(|crs| crs.epsg) {
+        writeln!(out, "comment crs EPSG:{number}")?;
+    }
+    writeln!(out, "element vertex {points}")?;
+    write!(out, "property double x\nproperty double y\nproperty double z\n")
 }
 
 fn write_position(out: &mut dyn Write, position: [f64; 3]) -> io::Result<()> {

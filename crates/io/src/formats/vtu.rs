@@ -1,5 +1,9 @@
 //! VTK unstructured grids, as ParaView opens them: XML with the arrays appended in binary.
 
+mod polyhedra;
+
+pub(crate) use polyhedra::write_polyhedra;
+
 use std::io::{self, Write};
 
 use delone::Triangulation;
@@ -14,9 +18,12 @@ const KINDS: [(usize, u8); 3] = [(3, 5), (4, 10), (6, 22)];
 /// The largest number of columns of attributes: each is an array of all cells.
 const MOST_COLUMNS: usize = 256;
 
+/// The array of cells that is ours.
+const REGION: [&str; 1] = ["region"];
+
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remark> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
-    let attributes = Attributes::of(shape.table(), || shape.rows().collect());
+    let attributes = Attributes::of(shape.table(), &REGION, || shape.rows().collect());
     let grid = Grid { points, heights: shape.heights(), cells, width: 3, attributes: &attributes };
     grid.write(out, shape.positions(), shape.triangles(), shape.region_values())?;
     Ok(attributes.remark())
@@ -25,8 +32,9 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remar
 /// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes.
 pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<Remark> {
     let (points, cells) = (mesh.points.len(), mesh.simplex_count());
-    let attributes =
-        Attributes::of(mesh.features.map(|features| features.table), || mesh.feature_rows().collect());
+    let attributes = Attributes::of(mesh.features.map(|features| features.table), &REGION, || {
+        mesh.feature_rows().collect()
+    });
     let grid =
         Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH, attributes: &attributes };
     if mesh.second_order {
@@ -55,10 +63,11 @@ struct Attributes<'a> {
 }
 
 impl<'a> Attributes<'a> {
-    fn of(table: Option<&'a Table>, rows: impl FnOnce() -> Vec<Option<usize>>) -> Self {
+    /// The columns of a table, beside arrays of our own.
+    fn of(table: Option<&'a Table>, ours: &[&str], rows: impl FnOnce() -> Vec<Option<usize>>) -> Self {
         let Some(table) = table.filter(|table| !table.names().is_empty()) else { return Self::default() };
         let mut found = Self { table: Some(table), rows: rows(), ..Self::default() };
-        let names = table.names_beside(&["region"]);
+        let names = table.names_beside(ours);
         for (column, (name, kind)) in names.into_iter().zip(table.types()).enumerate() {
             let is_number = matches!(kind, ColumnType::Integer | ColumnType::Number);
             if is_number && found.columns.len() < MOST_COLUMNS && table.numbers(column).is_some() {
