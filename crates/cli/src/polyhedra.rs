@@ -9,7 +9,7 @@ use delone::{
 };
 use delone_io::{Cloud, Contents, Format, Polyhedra, write_polyhedra};
 
-use crate::args::{GridChoice, VoronoiArgs};
+use crate::args::{GridChoice, PeriodicBox, VoronoiArgs};
 use crate::clip::is_polygon;
 use crate::files;
 use crate::message::{Failure, note};
@@ -20,7 +20,10 @@ use crate::weighted;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse_flat(args)?;
-    let lattice = args.space.periodic.map(|axes| args.space.lattice(axes)).transpose()?;
+    let mut lattice = match args.space.periodic {
+        Some(PeriodicBox::Axes(axes)) => Some(args.space.lattice(axes)?),
+        _ => None,
+    };
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs_of(&args.output, args.to, stats_path, &inputs, as_cells)?;
@@ -30,6 +33,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let (points, weights, about) = weighted::read::<Delaunay3>(&args.input, &args.weights, quiet)?;
     stats.phase("read");
+    if args.space.periodic == Some(PeriodicBox::OfFile) {
+        lattice = Some(args.space.lattice(box_of(&about, args)?)?);
+    }
     let weights = args.weights.given().is_some().then_some(&weights[..]);
     let work = Work { args, points: &points, weights, about: &about, outputs: &outputs, quiet };
     match lattice {
@@ -63,6 +69,23 @@ fn refuse_flat(args: &VoronoiArgs) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// The axes of the box that the file tells.
+fn box_of(about: &Cloud, args: &VoronoiArgs) -> Result<[[f64; 3]; 3], Failure> {
+    let label = args.input.label();
+    let failed = |what: String, help: &str| Failure::new(format!("{}: {what}", label.display()), help);
+    match about.cell {
+        None => Err(failed(
+            "it tells no box".to_owned(),
+            "give the box as --periodic LX,LY,LZ, or a file that has one: lammpstrj, extxyz",
+        )),
+        Some(cell) if cell.periodic != [true; 3] => Err(failed(
+            cell.to_string(),
+            "give a box that repeats along all axes as --periodic LX,LY,LZ: cells of others are not bounded, and not made yet",
+        )),
+        Some(cell) => Ok(cell.axes),
+    }
 }
 
 /// The format of a file of cells: of JSON that of its own, unless it is said to be GeoJSON.

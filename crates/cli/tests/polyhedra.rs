@@ -257,3 +257,45 @@ fn wrong_usage_is_named() {
         place.fail(&format!("voronoi nan.csv --dim 3 -o c.vtu {options}"), 1, "point 1");
     }
 }
+
+const DUMP: &str = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 2\n0 3\n1 5\nITEM: ATOMS id x y z radius\n7 0.5 1 2 0.25\n3 1.5 2 3 0.5\n5 9 9 9 0.125\n";
+const FRAME: &str =
+    "2\nLattice=\"2 0 0 1 3 0 0 0 4\" Properties=species:S:1:pos:R:3:r:R:1\nSi 0.5 1 2 0.25\nO 5 4 3 0.5\n";
+
+#[test]
+fn boxes_of_files_are_taken() {
+    let place = Place::new();
+    place.file("a.lammpstrj", DUMP.repeat(2));
+    place.file("a.extxyz", FRAME);
+    let told = place.run("voronoi a.lammpstrj --dim 3 --periodic -o c.json -o c.csv");
+    let told = text(&told.stderr);
+    assert!(told.contains("the first frame is read, one more is left out"), "{told}");
+    judge(&cells(&place, "c.json"), 24.0);
+    assert!(place.read("c.csv").starts_with("site,volume,area,centroid_x,centroid_y,centroid_z,id,radius\n"));
+    place.succeed("-q voronoi a.lammpstrj --dim 3 --periodic 2,3,4 -o d.json");
+    assert_eq!(place.read("c.json"), place.read("d.json"));
+    place.succeed("-q voronoi a.extxyz --dim 3 --periodic auto --radii r -o e.json");
+    judge(&cells(&place, "e.json"), 24.0);
+    place.succeed("-q voronoi a.extxyz --dim 3 --periodic 2,3,4,1,0,0 --radii r -o f.json");
+    assert_eq!(place.read("e.json"), place.read("f.json"));
+    assert_eq!(cells(&place, "e.json")[1]["species"], "O");
+    place.succeed("-q voronoi a.lammpstrj --dim 3 --periodic --radii radius -o g.json");
+    assert_ne!(place.read("c.json"), place.read("g.json"));
+
+    let fail =
+        |line: &str, status, word: &str| place.fail(&format!("-q voronoi {line} -o x.json"), status, word);
+    fail("a.lammpstrj --dim 3 --periodic --radii r", 1, "no column is called so, but: id, radius");
+    fail("a.extxyz --dim 3 --periodic --radii species", 1, "in this column point 0 has no number");
+    place.file("n.lammpstrj", DUMP.replace("0.125", "-0.125"));
+    fail(
+        "n.lammpstrj --dim 3 --periodic --radii radius",
+        1,
+        "point 2 has the radius -0.125, which is negative",
+    );
+    place.file("m.lammpstrj", DUMP.replace("pp pp pp", "pp pp ff"));
+    fail("m.lammpstrj --dim 3 --periodic", 1, "repeats along the first and the second alone");
+    place.file("p.extxyz", "1\nwater\nH 0 0 0\n");
+    fail("p.extxyz --dim 3 --periodic", 1, "it tells no box");
+    fail("a.lammpstrj m.lammpstrj --dim 3 --periodic", 1, "its box is another one");
+    place.fail("-q --strict voronoi a.lammpstrj --dim 3 --periodic -o x.json", 1, "one more is left out");
+}

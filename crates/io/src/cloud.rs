@@ -1,5 +1,6 @@
 //! Points as they come from a file.
 
+use crate::cell::UnitCell;
 use crate::error::listed;
 use crate::{Crs, Error, Features};
 
@@ -23,6 +24,8 @@ pub struct Cloud {
     pub flags: [u64; 4],
     /// The extra bytes of LAS files: names, and types in words.
     pub dimensions: Vec<(String, String)>,
+    /// The box of a periodic set.
+    pub cell: Option<UnitCell>,
     /// The attributes of the points, by the features that they are of.
     pub features: Features,
     /// Remarks on how the file was read: which columns were taken, what was left out.
@@ -101,6 +104,12 @@ impl Cloud {
             }
         }
         self.crs = self.crs.take().or_else(|| other.crs.clone());
+        if let (Some(ours), Some(theirs)) = (self.cell, other.cell)
+            && ours != theirs
+        {
+            return Err(Error::content("its box is another one than that of the files before it"));
+        }
+        self.cell = self.cell.or(other.cell);
         for &(class, count) in &other.classes {
             match self.classes.binary_search_by_key(&class, |entry| entry.0) {
                 Ok(i) => self.classes[i].1 += count,

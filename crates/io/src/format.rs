@@ -62,6 +62,10 @@ pub enum Format {
     E57,
     /// Leica's scans as text.
     Ptx,
+    /// Dumps of LAMMPS.
+    Lammps,
+    /// Extended XYZ.
+    ExtXyz,
     /// Stanford polygons.
     Ply,
     /// Wavefront.

@@ -9,6 +9,7 @@
 struct Readme;
 
 mod answers;
+mod cell;
 mod chunks;
 mod cloud;
 #[cfg(feature = "parquet")]
@@ -40,6 +41,7 @@ mod solid;
 mod xml;
 
 pub use answers::{Answers, Found, write_answers};
+pub use cell::UnitCell;
 pub use chunks::Take;
 pub use cloud::Cloud;
 #[cfg(feature = "parquet")]

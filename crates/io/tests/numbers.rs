@@ -143,6 +143,12 @@ pub(crate) fn in_all_formats(rows: &[[&str; 3]]) -> Vec<(&'static str, Format, S
         ("xyz", Format::Text, lines(" ")),
         ("tsv", Format::Text, lines("\t")),
         ("pts", Format::Pts, format!("{n}\n{}", lines(" "))),
+        (
+            "lammpstrj",
+            Format::Lammps,
+            format!("ITEM: NUMBER OF ATOMS\n{n}\nITEM: ATOMS x y z\n{}", lines(" ")),
+        ),
+        ("extxyz", Format::ExtXyz, format!("{n}\nProperties=pos:R:3\n{}", lines(" "))),
         ("geojson", Format::GeoJson, format!(r#"{{"type":"MultiPoint","coordinates":[{json}]}}"#)),
         ("features", Format::GeoJson, format!(r#"{{"type":"FeatureCollection","features":[{features}]}}"#)),
         ("geojsonl", Format::GeoJson, text_lines),

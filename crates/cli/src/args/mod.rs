@@ -39,7 +39,7 @@ pub use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use heights::{ContoursArgs, SimplifyArgs};
 pub use las::LasArgs;
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
-pub(crate) use periodic::{GridChoice, PeriodicArgs};
+pub(crate) use periodic::{GridChoice, PeriodicArgs, PeriodicBox};
 pub(crate) use place::PlaceArgs;
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};

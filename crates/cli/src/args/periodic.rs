@@ -10,18 +10,24 @@ use crate::message::Failure;
 #[command(next_help_heading = "Space")]
 pub(crate) struct PeriodicArgs {
     /// The box repeats along all of its axes: its three sides LX,LY,LZ; or LX,LY,LZ,XY,XZ,YZ, with tilt factors as in LAMMPS; or the nine
-    /// numbers of its axes, one axis after the other. Points may be outside of it. Nothing is clipped.
-    #[arg(long, value_name = "BOX", value_parser = parse_box, allow_negative_numbers = true, conflicts_with_all = ["bounds", "clip"])]
-    pub(crate) periodic: Option<Axes>,
+    /// numbers of its axes, one axis after the other; without numbers the box of the file (lammpstrj extxyz). Points may be outside of it.
+    /// Nothing is clipped.
+    #[arg(long, value_name = "BOX", num_args = 0..=1, default_missing_value = "auto", value_parser = parse_box, allow_negative_numbers = true, conflicts_with_all = ["bounds", "clip"])]
+    pub(crate) periodic: Option<PeriodicBox>,
     /// Take coordinates for decimals: multiples of STEP, or of the power of ten that all are multiples of but for rounding (`auto`). So
     /// crystals have no faces that rounding makes.
     #[arg(long, value_name = "auto|STEP", value_parser = parse_grid, allow_negative_numbers = true)]
     pub(crate) grid: Option<GridChoice>,
 }
 
-/// The axes of a box, one a row.
+/// The box that repeats.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Axes(pub(crate) [[f64; 3]; 3]);
+pub(crate) enum PeriodicBox {
+    /// That of the file.
+    OfFile,
+    /// By its axes, one a row.
+    Axes([[f64; 3]; 3]),
+}
 
 /// Which grid is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +47,7 @@ impl PeriodicArgs {
     ///
     /// # Errors
     /// Axes that span no box.
-    pub(crate) fn lattice(&self, Axes(axes): Axes) -> Result<Lattice3, Failure> {
+    pub(crate) fn lattice(&self, axes: [[f64; 3]; 3]) -> Result<Lattice3, Failure> {
         if axes.as_flattened().iter().all(|x| x.is_finite())
             && let Some(axis) = axes.iter().position(|axis| *axis == [0.0; 3])
         {
@@ -64,16 +70,21 @@ impl PeriodicArgs {
     }
 }
 
-fn parse_box(text: &str) -> Result<Axes, String> {
+fn parse_box(text: &str) -> Result<PeriodicBox, String> {
+    if text == "auto" {
+        return Ok(PeriodicBox::OfFile);
+    }
     let number = |word: &str| {
         let word = word.trim();
         word.parse::<f64>().map_err(|_| format!("{word:?} is not a number"))
     };
     let numbers = text.split(',').map(number).collect::<Result<Vec<f64>, String>>()?;
     match numbers[..] {
-        [x, y, z] => Ok(Axes([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])),
-        [x, y, z, xy, xz, yz] => Ok(Axes([[x, 0.0, 0.0], [xy, y, 0.0], [xz, yz, z]])),
-        [ax, ay, az, bx, by, bz, cx, cy, cz] => Ok(Axes([[ax, ay, az], [bx, by, bz], [cx, cy, cz]])),
+        [x, y, z] => Ok(PeriodicBox::Axes([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])),
+        [x, y, z, xy, xz, yz] => Ok(PeriodicBox::Axes([[x, 0.0, 0.0], [xy, y, 0.0], [xz, yz, z]])),
+        [ax, ay, az, bx, by, bz, cx, cy, cz] => {
+            Ok(PeriodicBox::Axes([[ax, ay, az], [bx, by, bz], [cx, cy, cz]]))
+        }
         _ => Err(format!("{} numbers, where a box has 3, 6 or 9", numbers.len())),
     }
 }
@@ -88,7 +99,8 @@ fn parse_grid(text: &str) -> Result<GridChoice, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axes, GridChoice, parse_box, parse_grid};
+    use super::PeriodicBox::{Axes, OfFile};
+    use super::{GridChoice, parse_box, parse_grid};
 
     #[test]
     fn boxes_are_three_six_or_nine_numbers() {
@@ -98,6 +110,7 @@ mod tests {
         assert_eq!(parse_box(" 2, 0,0, 0,2,0, 0,0,2"), Ok(Axes(cube)));
         // As LAMMPS has them: b leans along x, c along x and y.
         assert_eq!(parse_box("4,5,6,-1,2,3"), Ok(Axes([[4.0, 0.0, 0.0], [-1.0, 5.0, 0.0], [2.0, 3.0, 6.0]])));
+        assert_eq!(parse_box("auto"), Ok(OfFile));
         for (text, flaw) in [("1,2", "2 numbers"), ("1,2,x", "\"x\" is not a number"), ("", "not a number")] {
             assert!(parse_box(text).expect_err(text).contains(flaw), "{text}");
         }

@@ -109,6 +109,7 @@ impl CameraArgs {
   delone voronoi shops.csv --areas customers -o districts.geojson
   delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
   delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
+  delone voronoi dump.lammpstrj --dim 3 --periodic --radii radius -o cells.vtu
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature

@@ -11,7 +11,9 @@ use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
-use delone_io::{Beside, Cloud, Contents, Crs, Direction, Format, Raster, ReadOptions, Source, decompressed};
+use delone_io::{
+    Beside, Cloud, Contents, Crs, Direction, Format, Raster, ReadOptions, Source, Value, decompressed,
+};
 
 pub use apart::keep_apart;
 pub(crate) use apart::{beside, keep_names_apart};
@@ -327,7 +329,7 @@ const NUMBERS: &str = "name a file with one for each point, or a column of a tex
 /// Refuses a column of files that have none.
 pub(crate) fn check_column(args: &InputArgs, name: &str) -> Result<(), Failure> {
     for path in &args.input {
-        if is_standard(path) || format(path, args.from, "--from")? != Format::Text {
+        if is_standard(path) || !has_columns(format(path, args.from, "--from")?) {
             let what = format!("{name} is no file, and {} has no columns to look for it in", path.display());
             return Err(Failure::usage(what, NUMBERS));
         }
@@ -335,10 +337,20 @@ pub(crate) fn check_column(args: &InputArgs, name: &str) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Reads a column of the points' own files, by name or number from 1.
+/// Whether points of a format have columns with names.
+fn has_columns(format: Format) -> bool {
+    matches!(format, Format::Text | Format::Lammps | Format::ExtXyz)
+}
+
+/// Reads a column of the points' own files, by name or number from 1; of atoms by name.
 pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f64>, Failure> {
     let mut all = Vec::new();
     for path in &args.input {
+        let format = format(path, args.from, "--from")?;
+        if format != Format::Text {
+            all.extend(attribute(path, format, name, quiet)?);
+            continue;
+        }
         let options = ReadOptions::default().columns([name; 2]);
         let (source, _phase) = open(path, Format::Text, READING, quiet)?;
         let cloud = delone_io::read_points(source, Format::Text, &options).map_err(|error| {
@@ -348,6 +360,26 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
         all.extend(cloud.xy.into_iter().map(|[number, _]| number));
     }
     Ok(all)
+}
+
+/// Reads an attribute of all points, which must be a number.
+fn attribute(path: &Path, format: Format, name: &str, quiet: bool) -> Result<Vec<f64>, Failure> {
+    let (source, _phase) = open(path, format, READING, quiet)?;
+    let options = ReadOptions::default().attributes(true);
+    let cloud =
+        delone_io::read_points(source, format, &options).map_err(|error| wrong(path, format, &error))?;
+    let table = &cloud.features.table;
+    let failed =
+        |what: String| Failure::new(format!("{}: {name} is no file, and {what}", path.display()), NUMBERS);
+    let names = || table.names().join(", ");
+    let column = table.names().iter().position(|known| known == name);
+    let column = column.ok_or_else(|| failed(format!("no column is called so, but: {}", names())))?;
+    let number = |row| match table.value(row, column) {
+        Value::Number(number) => Ok(number),
+        Value::Integer(whole) => Ok(whole as f64),
+        _ => Err(failed(format!("in this column point {row} has no number"))),
+    };
+    (0..table.len()).map(number).collect()
 }
 
 /// The input of a command, and the dimensions of LAS files that are attributes of its queries: those that are asked for, where these are such

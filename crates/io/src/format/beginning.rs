@@ -154,6 +154,17 @@ fn of(beginning: &[u8]) -> Option<Format> {
         return Some(*format);
     }
     let second = words.next().unwrap_or_default();
+    if (first, second) == ("ITEM:", "TIMESTEP") {
+        return Some(Format::Lammps);
+    }
+    if first.parse::<u64>().is_ok()
+        && text
+            .lines()
+            .nth(1)
+            .is_some_and(|line| ["Lattice=", "Properties="].iter().any(|key| line.contains(key)))
+    {
+        return Some(Format::ExtXyz);
+    }
     if (first, second) == ("0", "SECTION") {
         return Some(Format::Dxf);
     }

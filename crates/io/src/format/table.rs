@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    dxf, e57, ept, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply,
-    poly, ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
+    dxf, e57, ept, extxyz, flatgeobuf, geojson, geopackage, gpx, lammps, las, list, msh, npy, obj, off,
+    pairs, pcd, ply, poly, ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -201,6 +201,22 @@ pub(super) const TABLE: &[Row] = &[
         names: &["ptx"],
         also: &[],
         readers: Readers { points: Some(|source, _| ptx::read(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Lammps,
+        title: "LAMMPS dumps of atoms in a box",
+        names: &["lammpstrj"],
+        also: &["dump"],
+        readers: Readers { points: Some(lammps::read), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::ExtXyz,
+        title: "extended XYZ, atoms in a lattice",
+        names: &["extxyz"],
+        also: &[],
+        readers: Readers { points: Some(extxyz::read), ..Readers::NONE },
         writes: &[],
     },
     Row {

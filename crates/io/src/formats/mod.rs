@@ -1,10 +1,12 @@
 //! The formats, one file each.
 
+mod atoms;
 pub(crate) mod cells;
 pub(crate) mod dxf;
 pub(crate) mod e57;
 pub(crate) mod edges;
 pub(crate) mod ept;
+pub(crate) mod extxyz;
 pub(crate) mod flatgeobuf;
 pub(crate) mod geojson;
 pub(crate) mod geopackage;
@@ -12,6 +14,7 @@ pub(crate) mod gpx;
 pub(crate) mod graphs;
 pub(crate) mod inp;
 pub(crate) mod json;
+pub(crate) mod lammps;
 pub(crate) mod las;
 mod lines;
 pub(crate) mod list;

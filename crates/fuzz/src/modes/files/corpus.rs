@@ -110,6 +110,9 @@ fn texts() -> Seeds {
     seeds.push((Format::Text, gzip(&plain.1)));
     seeds.push(plain);
     seeds.push((Format::Pts, b"3\n1 2 3 -5 0 0 0\n4 5 6 -5 0 0 0\n7 8 10 -5 1 2 3\n".to_vec()));
+    let dump: &[u8] = b"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS xy xz yz pp pp ff\n-1 7 2\n0 5 -1\n0 4 .5\nITEM: ATOMS id xs ys zs r\n7 .5 1 2 3\n3 2 5 4 .5\n";
+    let frame: &[u8] = b"2\nLattice=\"5 0 0 1 4 0 0 0 3\" Properties=species:S:1:pos:R:3:fixed:L:1 pbc=\"T F T\"\nSi 1 2 3 T\nO 4 5 6 F\n1\n\nH 1 2 3\n";
+    seeds.extend([(Format::Lammps, dump.to_vec()), (Format::ExtXyz, frame.to_vec())]);
     seeds.push(written(Format::Raw));
     seeds
 }
