@@ -16,7 +16,7 @@ use crate::closed;
 /// Commands that `delone-lab` has.
 const OF_THE_LAB: [&str; 4] = ["animate", "experiment", "reduce", "replay"];
 
-/// What other programs call commands and options of this one.
+/// Names in other programs of commands and options of this one.
 const ELSEWHERE: [(&str, &str); 13] = [
     ("-3", "--dim 3"),
     ("--3d", "--dim 3"),

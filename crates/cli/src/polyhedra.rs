@@ -152,7 +152,7 @@ impl<'a> Work<'a> {
     /// The decimal grid that points are put on, if one is asked for.
     fn grid(&self, stats: &mut Stats) -> Result<Option<DecimalGrid>, Failure> {
         /// The largest integer up to which all are numbers.
-        const MOST: f64 = (1_u64 << 53) as f64;
+        const MOST_STEPS: f64 = (1_u64 << 53) as f64;
         let grid = match self.args.space.grid {
             None => return Ok(None),
             Some(GridChoice::Step(grid)) => Some(grid),
@@ -164,7 +164,7 @@ impl<'a> Work<'a> {
         };
         let mut most = 0.0_f64;
         for (index, &x) in self.points.as_flattened().iter().enumerate() {
-            if x.is_finite() && grid.index(x).abs() > MOST {
+            if x.is_finite() && grid.index(x).abs() > MOST_STEPS {
                 let axis = ["x", "y", "z"][index % 3];
                 return Err(Failure::usage(
                     format!(

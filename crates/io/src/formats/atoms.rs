@@ -6,7 +6,7 @@ use crate::cell::UnitCell;
 use crate::error::excerpt;
 use crate::{Cloud, Features, ReadOptions, Table, Value};
 
-/// What a column is.
+/// The kind of a column.
 #[derive(Clone, Copy)]
 enum Role {
     /// A coordinate.

@@ -84,14 +84,14 @@ fn pairs(line: &Line) -> Result<Vec<(String, String)>, Error> {
 /// Names the columns.
 fn columns(line: &Line, properties: &str, atoms: &mut Atoms) -> Result<(), Error> {
     /// More columns of one name are no property of an atom.
-    const MOST: usize = 1000;
+    const MOST_COLUMNS: usize = 1000;
     let wrong = || line.error(format!("Properties are name:type:count, not {:?}", excerpt(properties)));
     let parts: Vec<&str> = properties.split(':').collect();
     let mut has_places = false;
     for part in parts.chunks(3) {
         let &[name, kind, count] = part else { return Err(wrong()) };
         let count: usize =
-            count.trim().parse().ok().filter(|&n| (1..=MOST).contains(&n)).ok_or_else(wrong)?;
+            count.trim().parse().ok().filter(|&n| (1..=MOST_COLUMNS).contains(&n)).ok_or_else(wrong)?;
         if !["S", "R", "I", "L"].contains(&kind) {
             return Err(wrong());
         }

@@ -54,7 +54,7 @@ impl<W> Memory<'_, W> {
         View { cells: self.cells, points: self.points, weights: self.weights, filter: self.filter }
     }
 
-    /// What surgery writes.
+    /// The records that surgery writes.
     #[inline]
     pub(in crate::space) fn records(&mut self) -> Records<'_> {
         Records { cells: self.cells, marks: self.marks, incident: self.incident }

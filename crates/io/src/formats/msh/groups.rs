@@ -81,7 +81,7 @@ impl Groups {
         self.of_curves.get(&tag).copied().unwrap_or_default()
     }
 
-    /// What is not passed on.
+    /// Parts that are not passed on.
     pub(super) fn losses(&self) -> Vec<String> {
         let mut losses = Vec::new();
         let mut tell = |what: &str, names: &[String]| {
