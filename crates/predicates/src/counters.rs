@@ -1,7 +1,6 @@
 //! How many decisions each stage made.
 //!
-//! Off by default and then free: counting is empty without the feature `counters`. The numbers are
-//! process-wide.
+//! Off by default and then free: counting is empty without the feature `counters`. Each thread has numbers of its own.
 
 /// A predicate that is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,24 +44,22 @@ impl Counts {
 #[cfg(any(test, feature = "counters"))]
 mod on {
     use super::{Counts, Predicate, Stage};
-    use std::sync::atomic::{AtomicU64, Ordering};
+    use std::cell::Cell;
 
-    static COUNTS: [[AtomicU64; 7]; 2] = [const { [const { AtomicU64::new(0) }; 7] }; 2];
+    thread_local! {
+        static COUNTS: Cell<Counts> = const { Cell::new(Counts([[0; 7]; 2])) };
+    }
 
     #[inline]
     pub(crate) fn count(predicate: Predicate, stage: Stage) {
-        COUNTS[predicate as usize][stage as usize].fetch_add(1, Ordering::Relaxed);
+        let mut counts = COUNTS.get();
+        counts.0[predicate as usize][stage as usize] += 1;
+        COUNTS.set(counts);
     }
 
-    /// Counts since the process started or since the last call, which resets them.
+    /// Counts of this thread since it started or since the last call, which resets them.
     pub fn take() -> Counts {
-        let mut counts = Counts::default();
-        for (row, cells) in counts.0.iter_mut().zip(&COUNTS) {
-            for (value, cell) in row.iter_mut().zip(cells) {
-                *value = cell.swap(0, Ordering::Relaxed);
-            }
-        }
-        counts
+        COUNTS.take()
     }
 }
 

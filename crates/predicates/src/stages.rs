@@ -20,7 +20,6 @@ fn share(counts: &Counts, predicate: Predicate, stage: Stage) -> f64 {
     counts.get(predicate, stage) as f64 / all as f64
 }
 
-/// One test, because the counters are process-wide.
 #[test]
 fn shares_of_the_stages() {
     use Predicate::{InCircle, Orient2d};
