@@ -89,7 +89,8 @@ def write_points(kind):
         file.write_text(head + "".join(f"{x!r} {y!r} {z!r} 0.5\n" for x, y, z in points.tolist()))
     elif kind == "lammpstrj":
         bounds = "".join(f"{low!r} {high!r}\n" for low, high in zip(points.min(0).tolist(), points.max(0).tolist(), strict=True))
-        head = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(points)}\nITEM: BOX BOUNDS pp pp pp\n{bounds}ITEM: ATOMS id type x y z\n"
+        head = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(points)}\nITEM: BOX BOUNDS pp pp pp\n{bounds}"
+        head += "ITEM: ATOMS id type x y z\n"
         file.write_text(head + "".join(f"{i} 1 {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(points.tolist(), 1)))
     elif kind == "extxyz":
         head = f'{len(points)}\nLattice="900 0 0 0 700 0 0 0 120" Properties=species:S:1:pos:R:3 pbc="T T T"\n'
