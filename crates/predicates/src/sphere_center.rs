@@ -177,6 +177,25 @@ mod tests {
         }
     }
 
+    /// A coordinate 150 orders of magnitude below the others.
+    #[test]
+    fn flat_boxes_keep_every_coordinate() {
+        let at =
+            |x: f64, y: f64, z: f64| [x * 1.916_151_690_796_238_2e-28, y * 1.142_448_899_994_924e-178, z];
+        let p = [
+            at(3.0, -3.0, -1.5),
+            at(2.0, -3.0, -3.0),
+            at(1.0, -1.0, 1.5),
+            at(3.0, 1.0, -1.5),
+            at(-1.0, -2.0, -4.5),
+        ];
+        for order in 0..120 {
+            let [a, b, c, d] = [order % 5, order / 5 % 5, (order + 1) % 5, (order + 3) % 5].map(|i| p[i]);
+            let exact = exactly([a, b, c, d]).filter(|center| center.iter().all(|x| x.is_finite()));
+            assert_eq!(circumcenter3(a, b, c, d), exact, "{order}");
+        }
+    }
+
     #[test]
     fn boxes_have_one_center() {
         // Of a box at a tenth each four corners that are not in a plane have the same.

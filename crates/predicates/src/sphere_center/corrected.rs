@@ -8,7 +8,7 @@
 use crate::ball::{Ball, U, two_product, two_sum};
 use crate::{Point3, Site};
 
-/// Lengths of sides for which nothing overflows, and for which the floors cover all that underflow takes away: 2^-200 to 2^200.
+/// Parts of sides, other than zeros, for which nothing overflows, and for which the floors cover all that underflow takes away: 2^-200 to 2^200.
 const SIDES: [f64; 2] = [f64::from_bits((1023 - 200) << 52), f64::from_bits((1023 + 200) << 52)];
 /// 2^-1000: of a miss, and of the size of a normal.
 const FLOOR: f64 = f64::from_bits(23 << 52);
@@ -53,7 +53,8 @@ pub(super) fn center(sites: &[Site<3>; 4]) -> Option<[Option<f64>; 3]> {
     let (sides, rests) = (seen.map(|side| side.map(|x| x.0)), seen.map(|side| side.map(|x| x.1)));
     let weights = [1, 2, 3].map(|i| two_sum(sites[i].1, -last)).map(|(high, low)| [high, low]);
     let longest = sides.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    if !(SIDES[0] < longest && longest < SIDES[1]) {
+    let is_lost = |x: &f64| *x != 0.0 && x.abs() < SIDES[0];
+    if !(SIDES[0] < longest && longest < SIDES[1]) || sides.as_flattened().iter().any(is_lost) {
         return None;
     }
     let [u, v, w] = sides;
