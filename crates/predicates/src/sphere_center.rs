@@ -1,4 +1,5 @@
-//! The center of the sphere through four points: floating point with a correction, balls, exact. A construction, so it is rounded, and correctly; nothing is decided by it.
+//! The center of the sphere through four points: floating point with a correction, balls, exact. A construction, so it is rounded, and
+//! correctly; nothing is decided by it.
 //!
 //! Seen from one corner, with sides u, v, w, the center is at (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (2 u . v x w).
 

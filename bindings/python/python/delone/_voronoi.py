@@ -40,7 +40,7 @@ class Voronoi:
         one again, as on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length
         have their vertex infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
     box, periodic, radii, grid, origin : optional
-        In a box cells of points in space are cut, or it repeats: see `Periodic`, which takes the same. The diagram has
+        A box that cells of points in space end at, or that repeats: see `Periodic`, which takes the same. The diagram has
         `volumes`, `areas`, `centroids`, `nlist` and `in_box` then, and not the attributes below.
 
     Attributes

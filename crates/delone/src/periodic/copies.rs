@@ -79,7 +79,9 @@ impl<const D: usize> Copies<D> {
 }
 
 /// A halo to begin with, for sites that are evenly spread: about as wide as their largest empty ball, 2.5 to 3 distances between neighbors.
-/// Of random sets of 10^3 to 3 10^4 sites one in twenty needs more. Axes along which the cell is thinner than that distance do not count: sites in a needle are as sites on a line.
+/// Of random sets of 10^3 to 3 10^4 sites one in twenty needs more.
+///
+/// Axes along which the cell is thinner than that distance do not count: sites in a needle are as sites on a line.
 pub(super) fn first_halo<const D: usize>(lattice: &Prepared<D>, places: &[[f64; D]]) -> f64 {
     /// The largest empty ball of n random sites grows as the cubic root of the logarithm of n; this factor is found by trial.
     const SPACINGS: f64 = 1.12;

@@ -192,16 +192,15 @@ pub(super) struct Wrapped<const D: usize> {
     pub place: [f64; D],
     /// How often each vector of the reduced basis is to be added for the point itself.
     pub offset: [i64; D],
-    /// By how much a coordinate was rounded at most, in coordinate units.
-    pub rounding: f64,
 }
 
 impl<const D: usize> Prepared<D> {
-    /// A point, moved into the cell at the origin. The place is the same for all points that differ by a vector of the lattice.
+    /// A point, moved into the cell at the origin; and by how much a coordinate was rounded at most, in coordinate units. The place is the same
+    /// for all points that differ by a vector of the lattice.
     ///
     /// # Errors
     /// The axis along which it is too far away: more than 2^60 periods, or 2^100 steps.
-    pub(super) fn wrap(&self, point: [f64; D]) -> Result<Wrapped<D>, usize> {
+    pub(super) fn wrap(&self, point: [f64; D]) -> Result<(Wrapped<D>, f64), usize> {
         const MOST_PERIODS: f64 = (1_u64 << 60) as f64;
         let given = point;
         let mut point = point.map(|x| self.decimal.map_or(x, |grid| grid.index(x)));
@@ -227,7 +226,7 @@ impl<const D: usize> Prepared<D> {
                 add(&mut steps, -(periods as i128), &vector.steps);
             }
         }
-        Ok(Wrapped { rounding, ..self.least(steps, &point, offset) })
+        Ok((self.least(steps, &point, offset), rounding))
     }
 
     /// Of all places in the cell, or beside it by rounding, that differ by a vector of the lattice, the least.
@@ -237,7 +236,7 @@ impl<const D: usize> Prepared<D> {
         let is_in = |place: &[f64; D]| {
             self.reduced.iter().all(|v| (-NEAR_PERIODS..=1.0 + NEAR_PERIODS).contains(&v.fraction(place)))
         };
-        let mut best = Wrapped { place: self.at(&steps, point), offset, rounding: 0.0 };
+        let mut best = Wrapped { place: self.at(&steps, point), offset };
         let fractions = self.reduced.iter().map(|v| v.fraction(&best.place));
         if fractions.into_iter().all(|f| f > NEAR_PERIODS && f < 1.0 - NEAR_PERIODS) {
             return best;
@@ -255,7 +254,7 @@ impl<const D: usize> Prepared<D> {
             let place = self.at(&moved, point);
             if is_in(&place) && (!is_known || place < best.place) {
                 is_known = true;
-                best = Wrapped { place, offset: other, ..best };
+                best = Wrapped { place, offset: other };
             }
         }
         best

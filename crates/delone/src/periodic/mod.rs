@@ -12,8 +12,9 @@
 //! So the periodic triangulation is a part of an ordinary one, of enough copies; `quotient` proves that they are enough, without
 //! rounding. No copy is rounded either: `lattice` puts sites and vectors on a common grid first.
 //!
-//! Cost: 1.4 times that of the plain triangulation of 10^5 sites in space, 1.2 times of 10^6, 3 to 9 of 10^3; sites in dense clusters cost up
-//! to that of all copies within twice the covering radius of the lattice, some 90 of each in a cube.
+//! Cost: for evenly spread sites in space 1.5 times that of the plain triangulation of 10^6, 1.7 of 10^5, 3 of 10^4 and 4.5 of 10^3 (28 November
+//! 2026, `compare -- --periodic`). Sites in dense clusters cost up to that of all copies within twice the covering radius of the lattice, some 90
+//! of each in a cube.
 
 mod cells;
 mod copies;
@@ -145,8 +146,9 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
         let wrap = |(index, &point): (usize, &[f64; D])| {
             lattice.wrap(point).map_err(|axis| Error::FarAway { index, axis, value: point[axis] })
         };
-        let wrapped = points.iter().enumerate().map(wrap).collect::<Result<Vec<_>, _>>()?;
-        let rounding = wrapped.iter().map(|at| at.rounding).fold(0.0, f64::max);
+        let all = points.iter().enumerate().map(wrap).collect::<Result<Vec<_>, _>>()?;
+        let (wrapped, roundings): (Vec<_>, Vec<f64>) = all.into_iter().unzip();
+        let rounding = roundings.into_iter().fold(0.0, f64::max);
         let places: Vec<[f64; D]> = wrapped.iter().map(|at| at.place).collect();
         let weights: Vec<f64> = weights.iter().map(|&w| lattice.weight(w)).collect();
         let quotient = triangulate::<T, D, N>(&lattice, &places, &weights)?;
@@ -253,7 +255,7 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
     /// # Panics
     /// For an id that is no site.
     pub fn position(&self, (site, offset): Image<D>) -> [f64; D] {
-        let Wrapped { place, offset: from, .. } = self.wrapped[site.index()];
+        let Wrapped { place, offset: from } = self.wrapped[site.index()];
         let from = self.lattice.in_axes(from);
         self.lattice.far(&place, std::array::from_fn(|k| offset[k] + from[k]))
     }

@@ -28,7 +28,7 @@ fn halos_do_not_show() {
                 let lattice = Lattice3::with_axes(axes).expect("a lattice").periodic(periodic);
                 let lattice = lattice.prepare(&points).expect("a lattice");
                 let places: Vec<[f64; 3]> =
-                    points.iter().map(|&p| lattice.wrap(p).expect("near").place).collect();
+                    points.iter().map(|&p| lattice.wrap(p).expect("near").0.place).collect();
                 let widest = 2.0 * MORE * covering_radius(&lattice.reduced);
                 let all = |q: Quotient<Delaunay3, 3, 4>| {
                     let mut all: Vec<_> = (0..q.simplices.len())
@@ -72,7 +72,7 @@ fn copies_have_one_place() {
         let place: [f64; 3] = moved(at);
         let place = place.map(|x| (x * FINE).round() / FINE);
         let far: [f64; 3] = std::array::from_fn(|k| place[k] + moved(times)[k]);
-        let (near, far) = (lattice.wrap(place).expect("near"), lattice.wrap(far).expect("near"));
+        let [(near, _), (far, _)] = [place, far].map(|p| lattice.wrap(p).expect("near"));
         assert_eq!(near.place, far.place);
         let apart: [i64; 3] = std::array::from_fn(|k| far.offset[k] - near.offset[k]);
         assert_eq!(lattice.in_axes(apart), times.map(|x| x as i64));
