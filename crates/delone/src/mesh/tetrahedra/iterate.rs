@@ -82,9 +82,9 @@ impl Mesh3 {
     /// nor new there.
     #[inline]
     pub(crate) fn next_around(&self, entered: FacetId, edge: [Place; 2]) -> FacetId {
-        let (t, corners) = (entered.tetrahedron(), &self.cells[entered.tetrahedron().index()].corners);
-        let left = (0..4).find(|&k| k != entered.corner() && !edge.contains(&corners[k]));
-        t.facet(left.unwrap_or_default())
+        let t = entered.tetrahedron();
+        let [i, j] = edge.map(|end| self.cells[t.index()].corner(end));
+        t.facet(6 - entered.corner() - i - j)
     }
 }
 
@@ -93,8 +93,8 @@ impl Mesh3 {
 pub(crate) fn first_around(t: TetrahedronId, [i, j]: [usize; 2]) -> FacetId {
     // Seen from its corner, a facet has its corners counter-clockwise: the corner before the end is left behind.
     let facet = FACETS[i];
-    let at = (0..3).find(|&k| facet[k] == j).unwrap_or_default();
-    t.facet(facet[(at + 2) % 3])
+    let [_, second, third] = facet.map(|corner| corner == j);
+    t.facet(facet[(2 + usize::from(second) + 2 * usize::from(third)) % 3])
 }
 
 /// The tetrahedra around an edge.

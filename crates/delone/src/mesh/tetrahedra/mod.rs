@@ -37,6 +37,13 @@ pub(crate) struct Tetrahedron {
 impl Tetrahedron {
     /// A slot that is not in use.
     pub(crate) const FREE: Self = Self { corners: [Place::GHOST; 4], across: [FacetId::NONE; 4] };
+
+    /// Which corner a place is, without a branch; 0 if it is none.
+    #[inline]
+    pub(crate) fn corner(&self, place: Place) -> usize {
+        let [_, b, c, d] = self.corners.map(|corner| usize::from(corner == place));
+        b + 2 * c + 3 * d
+    }
 }
 
 /// How many tetrahedra there may be.

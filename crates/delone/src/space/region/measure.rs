@@ -1,11 +1,14 @@
 //! Volumes, areas and centers of mass of polyhedra from the corners of their faces.
 //!
-//! All is seen from one corner, so that far from the origin nothing is lost; where products leave the range of `f64`, in other units.
+//! All of a polyhedron in one pass, seen from one corner, so that far from the origin nothing is lost; where products leave the range of
+//! `f64`, in other units.
 //!
 //! Cost: O(k) for k corners.
 
-/// Below this a product of four may have lost bits.
+/// Below this a product of four lengths may have lost bits: 1e-308 with room for the factor that is smallest.
 const LEAST_PRODUCT: f64 = 1e-150;
+/// Below this, in coordinate units squared, a face whose square was lost may count: at most 1e-75, a part of 1e-20.
+const LEAST_AREA: f64 = 1e-55;
 
 type Point = [f64; 3];
 
@@ -24,60 +27,79 @@ fn cross(p: Point, q: Point) -> Point {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-/// Hands out the triangles of a face from its first corner on, as seen from a point and scaled.
+/// The measures of a polyhedron.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::space) struct Measures {
+    /// Never negative: less than nothing is rounding. Beyond the range of `f64` it is infinite.
+    pub(in crate::space) volume: f64,
+    /// Of all faces.
+    pub(in crate::space) area: f64,
+    /// The center of mass. `None` if there is no volume.
+    pub(in crate::space) centroid: Option<Point>,
+}
+
+/// What one pass over the faces adds up, seen from a point and scaled.
+struct Sums {
+    six_volumes: f64,
+    /// 24 times the moment.
+    moment: Point,
+    two_areas: f64,
+    /// The box around the corners, neither moved nor scaled.
+    low: Point,
+    high: Point,
+}
+
+/// The outward normal of a face, twice as long as its area, as seen from a point and scaled. Hands out each triangle of the fan from its
+/// first corner, with six times the volume between that and the point.
 #[inline]
-fn triangles(
+fn fan(
     face: impl Iterator<Item = Point>,
     from: Point,
     scale: f64,
-    mut each: impl FnMut(Point, Point, Point),
-) {
+    mut each: impl FnMut([Point; 3], f64),
+) -> Point {
     let mut seen = face.map(|p| less(p, from).map(|x| x * scale));
-    let (Some(a), Some(mut b)) = (seen.next(), seen.next()) else { return };
+    let (Some(a), Some(mut b)) = (seen.next(), seen.next()) else { return [0.0; 3] };
+    let (mut side, mut normal) = (less(b, a), [0.0; 3]);
     for c in seen {
-        each(a, b, c);
-        b = c;
+        let next = less(c, a);
+        let more = cross(side, next);
+        each([a, b, c], dot(a, more));
+        normal = [normal[0] + more[0], normal[1] + more[1], normal[2] + more[2]];
+        (b, side) = (c, next);
     }
+    normal
 }
 
-/// Six times the volume, seen from a point.
 #[inline]
-fn six<F: Iterator<Item = Point>>(faces: impl Iterator<Item = F>, from: Point, scale: f64) -> f64 {
-    let mut sum = 0.0;
+fn sums<F: Iterator<Item = Point>>(faces: impl Iterator<Item = F>, from: Point, scale: f64) -> Sums {
+    let mut sums = Sums { six_volumes: 0.0, moment: [0.0; 3], two_areas: 0.0, low: from, high: from };
     for face in faces {
-        let (mut apex, mut twice) = ([0.0; 3], [0.0; 3]);
-        triangles(face, from, scale, |a, b, c| {
-            let more = cross(less(b, a), less(c, a));
-            (apex, twice) = (a, [twice[0] + more[0], twice[1] + more[1], twice[2] + more[2]]);
+        let Sums { six_volumes, moment, two_areas, low, high } = &mut sums;
+        let seen = face.inspect(|p| {
+            for k in 0..3 {
+                (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
+            }
         });
-        sum += dot(apex, twice);
-    }
-    sum
-}
-
-/// Six times the volume and 24 times its moment, seen from a point.
-#[inline]
-fn moments<F: Iterator<Item = Point>>(
-    faces: impl Iterator<Item = F>,
-    from: Point,
-    scale: f64,
-) -> (f64, Point) {
-    let (mut volume, mut moment) = (0.0, [0.0; 3]);
-    for face in faces {
-        triangles(face, from, scale, |a, b, c| {
-            let six = dot(a, cross(b, c));
-            volume += six;
+        let normal = fan(seen, from, scale, |[a, b, c], six| {
+            *six_volumes += six;
             for k in 0..3 {
                 moment[k] += six * (a[k] + b[k] + c[k]);
             }
         });
+        *two_areas += dot(normal, normal).sqrt();
     }
-    (volume, moment)
+    sums
 }
 
-/// Whether nothing was lost: products of four are in the range of `f64`.
-fn is_in_range(volume: f64, moment: Point) -> bool {
-    volume.abs() >= LEAST_PRODUCT && volume.is_finite() && moment.iter().all(|x| x.is_finite())
+impl Sums {
+    /// Whether nothing was lost: products of four are in the range of `f64`.
+    fn are_in_range(&self) -> bool {
+        let volume = self.six_volumes.abs();
+        (LEAST_PRODUCT..=f64::MAX).contains(&volume)
+            && (LEAST_AREA..=f64::MAX).contains(&self.two_areas)
+            && self.moment.iter().all(|x| x.is_finite())
+    }
 }
 
 /// A power of two that takes lengths of about the extent of points, as seen from one, to about one.
@@ -88,63 +110,38 @@ fn unit_of(points: impl Iterator<Item = Point>, from: Point) -> f64 {
     f64::from_bits(((1023 - exponent) as u64) << 52)
 }
 
-fn first<F: Iterator<Item = Point>>(mut faces: impl Iterator<Item = F>) -> Option<Point> {
-    faces.next()?.next()
-}
-
-/// The volume inside of faces that are counter-clockwise seen from outside. Beyond the range of `f64` it is infinite, and never NaN.
-pub(in crate::space) fn volume<F: Iterator<Item = Point>>(faces: impl Iterator<Item = F> + Clone) -> f64 {
-    let Some(from) = first(faces.clone()) else { return 0.0 };
-    let plain = six(faces.clone(), from, 1.0);
-    if is_in_range(plain, [0.0; 3]) {
-        return plain / 6.0;
-    }
-    let scale = unit_of(faces.clone().flatten(), from);
-    six(faces, from, scale) / 6.0 / scale / scale / scale
-}
-
-/// The center of mass. `None` if there is no volume.
-pub(in crate::space) fn centroid<F: Iterator<Item = Point>>(
-    faces: impl Iterator<Item = F> + Clone,
-) -> Option<Point> {
-    let from = first(faces.clone())?;
-    let ((mut volume, mut moment), mut scale) = (moments(faces.clone(), from, 1.0), 1.0);
-    if !is_in_range(volume, moment) {
+/// Measures of what is inside of faces that are counter-clockwise seen from outside.
+pub(in crate::space) fn of<F: Iterator<Item = Point>>(faces: impl Iterator<Item = F> + Clone) -> Measures {
+    let Some(from) = faces.clone().next().and_then(|mut face| face.next()) else {
+        return Measures::default();
+    };
+    let (mut sums, mut scale) = (self::sums(faces.clone(), from, 1.0), 1.0);
+    if !sums.are_in_range() {
         scale = unit_of(faces.clone().flatten(), from);
-        (volume, moment) = moments(faces.clone(), from, scale);
+        sums = self::sums(faces, from, scale);
     }
-    if volume.is_nan() || volume <= 0.0 {
-        return None;
-    }
+    let Sums { six_volumes, moment, two_areas, low, high } = sums;
     // A sliver has a volume of roundings: its center is among its corners all the same.
-    let (mut low, mut high) = (from, from);
-    for p in faces.flatten() {
-        for k in 0..3 {
-            (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
-        }
+    let center =
+        || [0, 1, 2].map(|k| (from[k] + moment[k] / six_volumes / 4.0 / scale).clamp(low[k], high[k]));
+    Measures {
+        volume: (six_volumes / 6.0 / scale / scale / scale).max(0.0),
+        area: two_areas / 2.0 / scale / scale,
+        centroid: (six_volumes > 0.0).then(center),
     }
-    Some([0, 1, 2].map(|k| (from[k] + moment[k] / volume / 4.0 / scale).clamp(low[k], high[k])))
 }
 
 /// The outward normal of a face, as long as its area; in units of a power of two, which is the second.
 pub(in crate::space) fn area_vector<F: Iterator<Item = Point> + Clone>(face: F) -> (Point, f64) {
     let Some(from) = face.clone().next() else { return ([0.0; 3], 1.0) };
-    let sum = |scale: f64| {
-        let mut sum = [0.0; 3];
-        triangles(face.clone(), from, scale, |_, b, c| {
-            let twice = cross(b, c);
-            sum = [sum[0] + twice[0], sum[1] + twice[1], sum[2] + twice[2]];
-        });
-        sum.map(|x| x / 2.0)
-    };
-    let plain = sum(1.0);
-    let square = dot(plain, plain);
+    let half = |scale: f64| fan(face.clone(), from, scale, |_, _| {}).map(|x| x / 2.0);
+    let plain = half(1.0);
     // The square of an area is a product of four.
-    if is_in_range(square, plain) {
+    if (LEAST_PRODUCT..=f64::MAX).contains(&dot(plain, plain)) {
         return (plain, 1.0);
     }
     let scale = unit_of(face.clone(), from);
-    (sum(scale), scale)
+    (half(scale), scale)
 }
 
 /// The area of a face. Infinite if it is beyond the range of `f64`.
@@ -161,7 +158,7 @@ pub(in crate::space) fn direction(vector: Point) -> Option<Point> {
 
 #[cfg(test)]
 mod tests {
-    use super::{area, area_vector, centroid, direction, volume};
+    use super::{Measures, area, area_vector, direction, of};
 
     /// Of a tetrahedron, in whatever units.
     #[test]
@@ -173,14 +170,17 @@ mod tests {
                 let [o, x, y, z] = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 6.0]].map(corner);
                 let faces = [[o, y, x], [o, x, z], [o, z, y], [x, y, z]];
                 let faces = || faces.iter().map(|face| face.iter().copied());
-                assert_eq!(volume(faces()), 16.0 * unit * unit * unit, "2^{power}");
-                let center = centroid(faces()).expect("a volume");
-                assert_eq!(center, [0, 1, 2].map(|k| ([1.0, 1.0, 1.5][k] + at[k]) * unit), "2^{power}");
+                let Measures { volume, area: surface, centroid } = of(faces());
+                assert_eq!(volume, 16.0 * unit * unit * unit, "2^{power}");
+                let center = [0, 1, 2].map(|k| ([1.0, 1.0, 1.5][k] + at[k]) * unit);
+                assert_eq!(centroid, Some(center), "2^{power}");
+                let sum: f64 = faces().map(area).sum();
+                assert!(surface == sum || (surface / sum - 1.0).abs() < 1e-15, "2^{power}");
                 let base = [o, y, x];
                 assert_eq!(area(base.into_iter()), 8.0 * unit * unit);
                 assert_eq!(direction(area_vector(base.into_iter()).0), Some([0.0, 0.0, -1.0]));
             }
         }
-        assert_eq!(volume(std::iter::empty::<std::array::IntoIter<[f64; 3], 3>>()), 0.0);
+        assert_eq!(of(std::iter::empty::<std::array::IntoIter<[f64; 3], 3>>()), Measures::default());
     }
 }

@@ -120,7 +120,7 @@ impl Region3 {
 
     /// The volume, in coordinate units cubed; infinite if it is beyond the range of `f64`.
     pub fn volume(&self) -> f64 {
-        measure::volume(self.walls())
+        measure::of(self.walls()).volume
     }
 
     /// The walls by number: their corners, counter-clockwise seen from outside.

@@ -31,21 +31,33 @@ impl Default for Solid {
 }
 
 impl Solid {
-    /// Begins with a box, seen from a point: its sides low and high by axis, each with what is beyond it.
-    pub(in crate::space) fn start(
-        &mut self,
-        sides: impl Iterator<Item = (HalfSpace, Option<u32>)>,
-        from: [f64; 3],
-    ) {
+    /// Begins anew, seen from a point.
+    pub(in crate::space) fn restart(&mut self, from: [f64; 3]) {
         self.planes.restart(from);
         self.beyond.clear();
         self.corners.clear();
-        for (side, beyond) in sides {
-            self.planes.push(side);
-            self.beyond.push(beyond);
-        }
-        let corner = |i: usize| self.planes.corner([i & 1, 2 + (i >> 1 & 1), 4 + (i >> 2 & 1)]);
-        self.corners.extend((0..8).filter_map(corner));
+    }
+
+    /// Adds a plane without cutting, and what is beyond it, if it is to have a face.
+    pub(in crate::space) fn push_plane(&mut self, side: HalfSpace, beyond: Option<u32>) {
+        self.planes.push(side);
+        self.beyond.push(beyond);
+    }
+
+    /// Adds the corner of three planes.
+    pub(in crate::space) fn push_corner(&mut self, planes: [usize; 3]) {
+        self.corners.extend(self.planes.corner(planes));
+    }
+
+    /// Begins with a box, seen from a point: its sides low and high by axis, each with what is beyond it.
+    pub(in crate::space) fn restart_with_box(
+        &mut self,
+        from: [f64; 3],
+        sides: impl Iterator<Item = (HalfSpace, Option<u32>)>,
+    ) {
+        self.restart(from);
+        sides.for_each(|(side, beyond)| self.push_plane(side, beyond));
+        (0..8).for_each(|i| self.push_corner([i & 1, 2 + (i >> 1 & 1), 4 + (i >> 2 & 1)]));
     }
 
     /// Keeps what is inside of a half-space.

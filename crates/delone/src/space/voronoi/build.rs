@@ -8,6 +8,7 @@
 use super::cells::{Cell3, Cells3, Faces};
 use super::centers::{Centers, bits};
 use crate::ids::{TetrahedronId, VertexId};
+use crate::space::region::measure::Measures;
 use crate::space::region::solid::Solid;
 
 /// Cells of some sites.
@@ -15,6 +16,8 @@ pub(super) struct Part {
     /// The number of centers.
     centers: usize,
     sites: Vec<(VertexId, u32)>,
+    /// Of the cells that have ended.
+    measures: Vec<Measures>,
     pub(super) faces: Faces,
     /// Corners that are no centers.
     fresh: Vec<[f64; 3]>,
@@ -24,7 +27,14 @@ pub(super) struct Part {
 
 impl Part {
     pub(super) fn new(centers: usize) -> Self {
-        Self { centers, sites: Vec::new(), faces: Faces::default(), fresh: Vec::new(), cut: Vec::new() }
+        Self {
+            centers,
+            sites: Vec::new(),
+            measures: Vec::new(),
+            faces: Faces::default(),
+            fresh: Vec::new(),
+            cut: Vec::new(),
+        }
     }
 
     /// Begins the cell of a site.
@@ -33,15 +43,24 @@ impl Part {
         self.sites.push((site, self.faces.len() as u32));
     }
 
+    /// Ends the last cell: measures it while its corners are at hand.
+    #[inline]
+    pub(super) fn end(&mut self, centers: &[[f64; 3]]) {
+        let measures = self.last(centers).measured();
+        self.measures.push(measures);
+    }
+
     /// The last cell.
     pub(super) fn last<'a>(&'a self, centers: &'a [[f64; 3]]) -> Cell3<'a> {
         let first = self.sites.last().map_or(0, |site| site.1);
-        self.faces.cell([first, self.faces.len() as u32 - first], centers, &self.fresh)
+        let measures = self.measures.last().copied().unwrap_or_default();
+        self.faces.cell([first, self.faces.len() as u32 - first], [centers, &self.fresh], measures)
     }
 
     /// Forgets all cells.
     pub(super) fn forget(&mut self) {
         self.sites.clear();
+        self.measures.clear();
         self.faces.clear();
         self.fresh.clear();
         self.cut.clear();
@@ -82,15 +101,21 @@ impl Part {
 /// All cells; `ids` were given.
 pub(super) fn joined(centers: Centers, ids: usize, parts: Vec<Part>) -> Cells3 {
     let count = centers.points.len();
-    let mut cells = Cells3 { sites: vec![[0, 0]; ids], vertices: centers.points, ..Cells3::default() };
+    let mut cells = Cells3 {
+        sites: vec![[0, 0]; ids],
+        measures: vec![Measures::default(); ids],
+        vertices: centers.points,
+        ..Cells3::default()
+    };
     let mut cut = Vec::new();
     let mut fresh = Vec::new();
     for part in parts {
         let (first, offset) = (cells.faces.len(), fresh.len() as u32);
         let moved = |i: u32| if i as usize >= count { i + offset } else { i };
         let ends = part.sites.iter().skip(1).map(|site| site.1).chain([part.faces.len() as u32]);
-        for (&(site, from), end) in part.sites.iter().zip(ends) {
+        for ((&(site, from), end), measures) in part.sites.iter().zip(ends).zip(part.measures) {
             cells.sites[site.index()] = [first as u32 + from, end - from];
+            cells.measures[site.index()] = measures;
         }
         cut.extend(part.cut.into_iter().map(|(place, i)| (place, moved(i))));
         fresh.extend(part.fresh);

@@ -1,9 +1,9 @@
 //! Clipped cells of space: polyhedra whose corners neighboring cells share.
 //!
-//! Cost: O(k) for what is asked of a cell with k corners.
+//! Cost: O(1) for what was measured when a cell was made, O(k) for a face with k corners.
 
 use crate::ids::VertexId;
-use crate::space::region::measure;
+use crate::space::region::measure::{self, Measures};
 
 /// Set in the code of a wall.
 const WALL: u32 = 1 << 31;
@@ -17,6 +17,8 @@ const WALL: u32 = 1 << 31;
 pub struct Cells3 {
     /// For each site the first of its faces, and how many there are.
     pub(super) sites: Vec<[u32; 2]>,
+    /// By site.
+    pub(super) measures: Vec<Measures>,
     pub(super) faces: Faces,
     /// First the centers by tetrahedron, then what clipping has made.
     pub(super) vertices: Vec<[f64; 3]>,
@@ -50,6 +52,7 @@ pub struct Cell3<'a> {
     ends: &'a [usize],
     corners: &'a [u32],
     vertices: Vertices<'a>,
+    measures: Measures,
 }
 
 /// A face of a clipped cell: a convex polygon.
@@ -137,8 +140,8 @@ impl Faces {
     pub(super) fn cell<'a>(
         &'a self,
         [first, count]: [u32; 2],
-        centers: &'a [[f64; 3]],
-        others: &'a [[f64; 3]],
+        [centers, others]: [&'a [[f64; 3]]; 2],
+        measures: Measures,
     ) -> Cell3<'a> {
         let (first, count) = (first as usize, count as usize);
         Cell3 {
@@ -146,6 +149,7 @@ impl Faces {
             ends: &self.starts[first..=first + count],
             corners: &self.indices,
             vertices: Vertices(centers, others),
+            measures,
         }
     }
 }
@@ -172,7 +176,8 @@ impl Cells3 {
     /// The cell of a site: without faces for an id that is no vertex, and for a cell outside of the region.
     pub fn cell(&self, site: VertexId) -> Cell3<'_> {
         let faces = self.sites.get(site.index()).copied().unwrap_or_default();
-        self.faces.cell(faces, &self.vertices, &[])
+        let measures = self.measures.get(site.index()).copied().unwrap_or_default();
+        self.faces.cell(faces, [&self.vertices, &[]], measures)
     }
 
     /// The vertices of all cells. Those that no face uses may be infinite.
@@ -204,7 +209,7 @@ impl Cells3 {
 impl<'a> Cell3<'a> {
     /// Its faces: none if nothing of it is left.
     pub fn faces(self) -> impl ExactSizeIterator<Item = Face3<'a>> + Clone {
-        let Self { across, ends, corners, vertices } = self;
+        let Self { across, ends, corners, vertices, .. } = self;
         across.iter().zip(ends.windows(2)).map(move |(&across, ends)| Face3 {
             across,
             corners: &corners[ends[0]..ends[1]],
@@ -212,20 +217,24 @@ impl<'a> Cell3<'a> {
         })
     }
 
-    /// The volume, in coordinate units cubed. Never negative: less than nothing is rounding. Infinite if it is beyond the range of `f64`. O(k)
-    /// for k corners.
+    /// The volume, in coordinate units cubed. Never negative: less than nothing is rounding. Infinite if it is beyond the range of `f64`.
     pub fn volume(self) -> f64 {
-        measure::volume(self.faces().map(Face3::points)).max(0.0)
+        self.measures.volume
     }
 
-    /// The area of the surface, in coordinate units squared. O(k).
+    /// The area of the surface, in coordinate units squared.
     pub fn area(self) -> f64 {
-        self.faces().fold(0.0, |sum, face| sum + face.area())
+        self.measures.area
     }
 
-    /// The center of mass. `None` if the cell is empty, or so small that its rounded corners have no volume. O(k).
+    /// The center of mass. `None` if the cell is empty, or so small that its rounded corners have no volume.
     pub fn centroid(self) -> Option<[f64; 3]> {
-        measure::centroid(self.faces().map(Face3::points))
+        self.measures.centroid
+    }
+
+    /// Finds volume, area and center of mass. O(k) for k corners.
+    pub(super) fn measured(self) -> Measures {
+        measure::of(self.faces().map(Face3::points))
     }
 }
 

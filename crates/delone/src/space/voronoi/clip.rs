@@ -86,8 +86,7 @@ pub(in crate::space) fn each<W: Cellular>(
 ) {
     let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
     let mut part = Part::new(centers.points.len());
-    let places = in_order(layer);
-    Worker::new(layer, &centers, Some(region)).run(&places, &mut part, |part, site| {
+    Worker::new(layer, &centers, Some(region)).run(in_order(layer), &mut part, |part, site| {
         each(site, part.last(&centers.points));
         part.forget();
     });
@@ -114,28 +113,23 @@ fn all<W: Cellular>(
     region: Option<&Region3>,
     is_wanted: impl Fn(Place) -> bool + Send + Sync,
 ) -> Cells3 {
-    let places: Vec<Place> = in_order(layer).into_iter().filter(|&p| is_wanted(p)).collect();
+    let places: Vec<Place> = in_order(layer).filter(|&p| is_wanted(p)).collect();
     let parts = parallel::map(parallel::ranges(places.len()), |range| {
         let mut part = Part::new(centers.points.len());
-        Worker::new(layer, &centers, region).run(&places[range], &mut part, |_, _| {});
+        Worker::new(layer, &centers, region).run(places[range].iter().copied(), &mut part, |_, _| {});
         part
     });
     joined(centers, ids, parts)
 }
 
-/// The places of all vertices in the order of tetrahedra, which lie in memory as in space.
-fn in_order<W: Cellular>(layer: &Layer<W>) -> Vec<Place> {
-    let mut seen = vec![false; layer.points.len()];
-    layer.scaffold.iter().for_each(|p| seen[p.index()] = true);
-    let mut places = Vec::with_capacity(layer.mesh.vertex_count);
-    for cell in &layer.mesh.cells {
-        for p in cell.corners.into_iter().filter(|p| !p.is_ghost()) {
-            if !std::mem::replace(&mut seen[p.index()], true) {
-                places.push(p);
-            }
-        }
-    }
-    places
+/// The places of all vertices. After construction they follow a curve: neighbors in space are neighbors in memory.
+fn in_order<W: Cellular>(layer: &Layer<W>) -> impl Iterator<Item = Place> {
+    layer.mesh.inhabited().filter(|&p| !layer.is_scaffold(p))
+}
+
+/// The code of a wall.
+fn wall(number: u32) -> u32 {
+    Across3::Wall(number as usize).code()
 }
 
 /// A maker of cells, one after the other.
@@ -164,40 +158,42 @@ impl<'a, W: Cellular> Worker<'a, W> {
     }
 
     /// Makes the cells of some places.
-    fn run(&mut self, places: &[Place], part: &mut Part, mut each: impl FnMut(&mut Part, VertexId)) {
-        for &place in places {
+    fn run(
+        &mut self,
+        places: impl Iterator<Item = Place>,
+        part: &mut Part,
+        mut each: impl FnMut(&mut Part, VertexId),
+    ) {
+        for place in places {
             let site = self.layer.mesh.name(place);
             part.begin(site);
             let is_whole = self.reader.push(place, &mut part.faces);
             if let Some(region) = self.region.filter(|_| !is_whole) {
                 self.cut(place, region, part);
             }
+            part.end(&self.centers.points);
             each(part, site);
         }
     }
 
     /// Adds a cell cut out of the region.
     fn cut(&mut self, place: Place, region: &Region3, part: &mut Part) {
-        let Self { layer, solid, star, by_corners, .. } = self;
-        let site = layer.site(place);
-        let wall = |number: u32| Across3::Wall(number as usize).code();
-        solid.start(region.frame.iter().map(|(side, number)| (*side, number.map(wall))), site.0);
-        let mut others = layer.joined_to(place, star);
-        // The nearest first: then few corners are made that others cut off.
-        others.sort_by_cached_key(|p| {
-            let square: f64 = (0..3).map(|k| (layer.points[p.index()][k] - site.0[k]).powi(2)).sum();
-            square.to_bits()
-        });
-        for other in others {
-            let half_space = W::half_space(site, layer.site(other));
-            solid.cut(half_space, Across3::Site(layer.mesh.name(other)).code());
-            if solid.is_empty() {
-                return;
-            }
+        let others = self.layer.joined_to(place, &mut self.star);
+        // Points of less than space have no centers.
+        let has_center =
+            |t: &TetrahedronId| self.centers.points.get(t.index()).is_some_and(|p| p[0].is_finite());
+        if self.star.iter().all(has_center) {
+            self.cut_by_walls(place, &others, region);
+        } else {
+            self.cut_by_all(place, others, region);
         }
         for (side, number) in &region.slanted {
-            solid.cut(*side, wall(*number));
+            self.solid.cut(*side, wall(*number));
         }
+        if self.solid.is_empty() {
+            return;
+        }
+        let Self { layer, solid, star, by_corners, .. } = self;
         by_corners.clear();
         if layer.scaffold.is_empty() {
             by_corners.extend(star.iter().filter(|&&t| !layer.mesh.is_ghost(t)).map(|&t| {
@@ -217,5 +213,49 @@ impl<'a, W: Cellular> Worker<'a, W> {
             Some(by_corners[found].1)
         };
         part.push_cut(solid, self.centers, tetrahedron);
+    }
+
+    /// Begins with the whole cell, which has a corner for each tetrahedron, and cuts it by the sides of the box around the region.
+    fn cut_by_walls(&mut self, place: Place, others: &[Place], region: &Region3) {
+        let Self { layer, centers, solid, star, .. } = self;
+        let site = layer.site(place);
+        solid.restart(site.0);
+        for &other in others {
+            let beyond = Across3::Site(layer.mesh.name(other)).code();
+            solid.push_plane(W::half_space(site, layer.site(other)), Some(beyond));
+        }
+        for t in star.iter() {
+            let mut planes = [0; 3];
+            let corners = layer.mesh.cells[t.index()].corners.into_iter().filter(|&p| p != place);
+            for (plane, other) in planes.iter_mut().zip(corners) {
+                *plane = others.binary_search(&other).unwrap_or_default();
+            }
+            solid.push_corner(planes);
+        }
+        for (side, number) in region.frame {
+            let Some(number) = number else { continue };
+            if !star.iter().all(|t| side.surely_holds(centers.points[t.index()])) {
+                solid.cut(side, wall(number));
+            }
+        }
+    }
+
+    /// Begins with the box around the region, and cuts it by the half-spaces of all neighbors: for cells that are not bounded.
+    fn cut_by_all(&mut self, place: Place, mut others: Vec<Place>, region: &Region3) {
+        let Self { layer, solid, .. } = self;
+        let site = layer.site(place);
+        solid.restart_with_box(site.0, region.frame.iter().map(|(side, number)| (*side, number.map(wall))));
+        // The nearest first: then few corners are made that others cut off.
+        others.sort_by_cached_key(|p| {
+            let square: f64 = (0..3).map(|k| (layer.points[p.index()][k] - site.0[k]).powi(2)).sum();
+            square.to_bits()
+        });
+        for other in others {
+            let half_space = W::half_space(site, layer.site(other));
+            solid.cut(half_space, Across3::Site(layer.mesh.name(other)).code());
+            if solid.is_empty() {
+                return;
+            }
+        }
     }
 }

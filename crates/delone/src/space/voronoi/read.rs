@@ -57,9 +57,7 @@ impl<'a> Reader<'a> {
     #[inline]
     fn push_ring(&mut self, site: Place, other: Place, first: TetrahedronId, faces: &mut Faces) -> bool {
         let (mesh, centers) = (self.mesh, self.centers);
-        let corner =
-            |p: Place| (0..4).find(|&k| mesh.cells[first.index()].corners[k] == p).unwrap_or_default();
-        let mut f = first_around(first, [corner(site), corner(other)]);
+        let mut f = first_around(first, [site, other].map(|end| mesh.cells[first.index()].corner(end)));
         loop {
             faces.indices.push(centers.corner(f.tetrahedron()));
             let entered = mesh.twin(f);
