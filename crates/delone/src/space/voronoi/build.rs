@@ -8,8 +8,14 @@
 use super::cells::{Cell3, Cells3, Faces};
 use super::centers::{Centers, bits};
 use crate::ids::{TetrahedronId, VertexId};
+use crate::parallel;
 use crate::space::region::measure::Measures;
 use crate::space::region::solid::Solid;
+
+/// Faces of a cell that room is made for: cells of evenly spread sites have 15.54.
+const FACES_OF_CELL: usize = 16;
+/// Corners of faces that room is made for: those 15.54 faces have 81.2, each counted in three faces.
+const CORNERS_OF_CELL: usize = 84;
 
 /// Cells of some sites.
 pub(super) struct Part {
@@ -26,12 +32,13 @@ pub(super) struct Part {
 }
 
 impl Part {
-    pub(super) fn new(centers: usize) -> Self {
+    /// With room for some cells.
+    pub(super) fn new(centers: usize, cells: usize) -> Self {
         Self {
             centers,
-            sites: Vec::new(),
-            measures: Vec::new(),
-            faces: Faces::default(),
+            sites: Vec::with_capacity(cells),
+            measures: Vec::with_capacity(cells),
+            faces: Faces::with_room(cells * FACES_OF_CELL, cells * CORNERS_OF_CELL),
             fresh: Vec::new(),
             cut: Vec::new(),
         }
@@ -107,6 +114,11 @@ pub(super) fn joined(centers: Centers, ids: usize, parts: Vec<Part>) -> Cells3 {
         vertices: centers.points,
         ..Cells3::default()
     };
+    let part_count = parts.len();
+    if part_count > 1 {
+        let sum = |of: fn(&Faces) -> usize| parts.iter().map(|part| of(&part.faces)).sum();
+        cells.faces = Faces::with_room(sum(Faces::len), sum(|faces| faces.indices.len()));
+    }
     let mut cut = Vec::new();
     let mut fresh = Vec::new();
     for part in parts {
@@ -119,7 +131,7 @@ pub(super) fn joined(centers: Centers, ids: usize, parts: Vec<Part>) -> Cells3 {
         }
         cut.extend(part.cut.into_iter().map(|(place, i)| (place, moved(i))));
         fresh.extend(part.fresh);
-        if first == 0 && offset == 0 {
+        if part_count == 1 {
             cells.faces = part.faces;
             continue;
         }
@@ -130,7 +142,7 @@ pub(super) fn joined(centers: Centers, ids: usize, parts: Vec<Part>) -> Cells3 {
         indices.extend(part.faces.indices.into_iter().map(moved));
     }
     // One vertex for all at a place: a center if there is one.
-    cut.sort_unstable();
+    parallel::sort(&mut cut);
     let mut index = vec![0; fresh.len()];
     for equal in cut.chunk_by(|p, q| p.0 == q.0) {
         let mut least = equal[0].1;

@@ -3,6 +3,7 @@
 //! Cost: O(1) for what was measured when a cell was made, O(k) for a face with k corners.
 
 use crate::ids::VertexId;
+use crate::memory::room_for;
 use crate::space::region::measure::{self, Measures};
 
 /// Set in the code of a wall.
@@ -82,6 +83,12 @@ impl Default for Faces {
 }
 
 impl Faces {
+    pub(super) fn with_room(faces: usize, corners: usize) -> Self {
+        let mut starts = room_for(faces + 1);
+        starts.push(0);
+        Self { across: room_for(faces), starts, indices: room_for(corners) }
+    }
+
     pub(super) fn clear(&mut self) {
         self.across.clear();
         self.starts.truncate(1);

@@ -85,7 +85,7 @@ pub(in crate::space) fn each<W: Cellular>(
     mut each: impl FnMut(VertexId, Cell3<'_>),
 ) {
     let centers = Centers::of(layer, |_| true, |p| region.surely_holds(p));
-    let mut part = Part::new(centers.points.len());
+    let mut part = Part::new(centers.points.len(), 1);
     Worker::new(layer, &centers, Some(region)).run(in_order(layer), &mut part, |part, site| {
         each(site, part.last(&centers.points));
         part.forget();
@@ -115,7 +115,7 @@ fn all<W: Cellular>(
 ) -> Cells3 {
     let places: Vec<Place> = in_order(layer).filter(|&p| is_wanted(p)).collect();
     let parts = parallel::map(parallel::ranges(places.len()), |range| {
-        let mut part = Part::new(centers.points.len());
+        let mut part = Part::new(centers.points.len(), range.len());
         Worker::new(layer, &centers, region).run(places[range].iter().copied(), &mut part, |_, _| {});
         part
     });
