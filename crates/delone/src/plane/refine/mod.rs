@@ -30,7 +30,7 @@ use crate::error::Error;
 use crate::ids::{MAX_POINTS, VertexId};
 use crate::points::survey as bounds;
 use mesher::{Done, Known, Mesher};
-use queue::Queue;
+use queue::{Queue, STEEP_ANGLE};
 use rules::{Field, Rules};
 
 /// Which constraints may not be split.
@@ -310,7 +310,7 @@ impl<'a> Refinement<'a> {
         let before = c.begin_refinement(&mut domains);
         let rules = Rules::new(self, &domains, &before);
         let layer = c.layer();
-        let queue = Queue::new(&bounds(&layer.points).0);
+        let queue = Queue::new(&bounds(&layer.points).0, self.min_angle > STEEP_ANGLE);
         let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins);
         let mut ran = mesher.run();
         if self.smoothing > 0 && ran.is_ok() {
