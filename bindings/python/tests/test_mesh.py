@@ -218,8 +218,10 @@ def test_conforming_is_delaunay():
 def test_budgets():
     mesh = delone.mesh(UNIT, max_area=0.001, max_vertices=7)
     assert len(mesh.points) == 11 and set(mesh.report.reasons) == {"budget"}
-    with pytest.raises(ValueError, match="min_angle is 35"):
-        delone.mesh(UNIT, min_angle=35)
+    with pytest.raises(ValueError, match="min_angle is 60"):
+        delone.mesh(UNIT, min_angle=60)
+    assert delone.mesh(UNIT, min_angle=35, max_area=0.1).report.smallest_angle >= 35
+    assert set(delone.mesh(UNIT, min_angle=50, max_area=0.01).report.reasons) == {"budget"}
     points, segments = planar(1)
     steep = delone.mesh(points, segments, min_angle=35, max_vertices=500)
     assert len(steep.points) <= len(points) + 500

@@ -225,12 +225,59 @@ def test_crossings_have_attributes_too():
     assert len(made["segments"]) == 8 and made["vertex_markers"].ravel().tolist() == [1, 1, 1, 1, 0]
 
 
+@pytest.mark.parametrize("switches", ["pe", "pqe", "pqea0.5", "pceD"])
+def test_edges_and_segments_run_as_in_the_package(switches):
+    """Clients take normals from that."""
+    made = delone.triangle.triangulate(FULL, switches)
+    rows = made["triangles"].tolist()
+    first = {}
+    for row, corners in enumerate(rows):
+        for k in range(3):
+            first.setdefault(tuple(sorted((corners[k], corners[k - 2]))), (row, (corners[k], corners[k - 2])))
+    for edge in map(tuple, made["edges"].tolist()):
+        assert first[tuple(sorted(edge))][1] == edge
+    sides = {(corners[k], corners[k - 2]) for corners in rows for k in range(3)}
+    border = [s for s in map(tuple, made["segments"].tolist()) if (s in sides) != (s[::-1] in sides)]
+    assert border and all(s[::-1] in sides for s in border), "the mesh is on the right"
+
+
+@pytest.mark.parametrize("markers", [(0, 7), (7, 0), (5, 7), (0, 0)])
+def test_the_first_marker_of_a_segment_given_twice(markers):
+    tri = dict(SQUARE, segments=[[0, 1], [1, 2], [2, 3], [3, 0], [1, 0]], segment_markers=[markers[0], 0, 0, 0, markers[1]])
+    made, theirs = delone.triangle.triangulate(tri, "pe"), original(tri, ["pe"])[0]
+    for key in ("vertex_markers",):
+        assert (made[key] == theirs[key]).all()
+    at = [
+        {tuple(sorted(s)): m for s, m in zip(of["segments"].tolist(), of["segment_markers"].ravel().tolist(), strict=True)}
+        for of in (made, theirs)
+    ]
+    assert at[0] == at[1]
+
+
+def test_vertices_in_holes_have_the_markers_of_their_segments():
+    corners = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2], [1, 2], [1.5, 1.4], [1.6, 1.6]]
+    sides = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [8, 9]]
+    tri = {"vertices": corners, "segments": sides, "segment_markers": range(2, 11), "holes": [[1.2, 1.5]]}
+    tri["segment_markers"] = list(tri["segment_markers"])
+    made, theirs = delone.triangle.triangulate(tri, "p"), original(tri, ["p"])[0]
+    assert made["vertex_markers"].ravel().tolist() == theirs["vertex_markers"].ravel().tolist() == [2, 2, 3, 4, 6, 6, 7, 8, 10, 10]
+
+
+def test_more_than_34_degrees_are_tried():
+    made = delone.triangle.triangulate(dict(SQUARE), "pzeAa0.1q34.3")
+    assert len(made["vertices"]) <= 20
+    with pytest.warns(UserWarning, match="55 degrees"):
+        delone.triangle.triangulate(dict(SQUARE), "pq55a0.01")
+
+
 def test_the_others():
     points = np.random.default_rng(4).random((30, 2))
     triangles = delone.triangle.delaunay(points)
     assert triangles.shape[1] == 3 and triangles.dtype == np.int32
     hull = delone.triangle.convex_hull(points)
     assert {tuple(sorted(e)) for e in hull.tolist()} == border_of(triangles)
+    (ax, ay), (bx, by) = points[hull[:, 0]].T, points[hull[:, 1]].T
+    assert (ax * by - bx * ay).sum() < 0, "clockwise, as Triangle has it"
     centers, edges, origins, directions = delone.triangle.voronoi(points)
     assert len(centers) == len(triangles) and len(origins) == len(directions) == len(hull)
     for row, center in enumerate(centers):
@@ -249,7 +296,6 @@ def test_the_others():
 @pytest.mark.parametrize(
     ("change", "switches", "error", "words"),
     [
-        ({}, "q35", ValueError, "switch q: 35"),
         ({}, "q70", ValueError, "switch q: 70"),
         ({}, "qa0", ValueError, "switch a"),
         ({}, "a0.0", ValueError, "switch a"),

@@ -387,8 +387,8 @@ fn a_mesh_is_refined_again() {
 fn what_cannot_be_is_said() {
     let place = Place::new();
     place.file("plan.poly", PLAN);
-    place.fail("mesh plan.poly --min-angle 35 -o m.vtu", 2, "min-angle is 35");
-    place.fail("mesh plan.poly --triangle pq35", 2, "min-angle is 35");
+    place.fail("mesh plan.poly --min-angle 61 -o m.vtu", 2, "min-angle is 61");
+    place.fail("mesh plan.poly --triangle pq61", 2, "min-angle is 61");
     place.fail("mesh plan.poly --min-angle 60 --max-vertices 5 -o m.vtu", 2, "min-angle is 60");
     place.fail("mesh none.poly --min-angle nan -o m.vtu", 2, "min-angle is NaN");
     place.fail("mesh plan.poly --max-area 0 -o m.vtu", 2, "max-area is 0");

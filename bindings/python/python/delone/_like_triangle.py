@@ -296,15 +296,18 @@ class Result:
         s, corners = self.switches, self.mesh.triangles
         points, attributes = self.mesh.points, self.old.attributes(self.mesh.points)
         is_wanted = s.edges or s.second_order
-        keys, sides = np.unique(_keys(_edges(corners if is_wanted else corners[:0])), return_inverse=True)
-        edges = _pairs(keys)
+        keys, firsts, sides = np.unique(
+            _keys(_edges(corners if is_wanted else corners[:0])), return_index=True, return_inverse=True
+        )
+        # Counter-clockwise in the first of their triangles.
+        edges = corners[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)[firsts]
         at_segments = self._segment_markers()
         markers = self._vertex_markers(at_segments)
         # For each edge the marker of the segment that it is on. All borders are segments.
         at_edges = np.zeros(len(edges), np.int64)
         if is_wanted:
             at_edges[np.searchsorted(keys, _keys(np.sort(self.mesh.segments, axis=1)))] = at_segments
-        segments, edges_of = self.mesh.segments, edges
+        segments, edges_of = self._segments(), edges
         if s.jettison:
             used = np.zeros(len(points), bool)
             used[corners] = True
@@ -332,20 +335,39 @@ class Result:
             found |= {"edges": edges_of, "edge_markers": at_edges}
         return {key: _typed(array) for key, array in found.items() if array.size and not (s.no_markers and "marker" in key)}
 
+    @cached_property
+    def _border(self) -> Ints:
+        """The edges with the mesh on one side: it is on their left."""
+        corners, neighbors = self.mesh.triangles, self.mesh.neighbors
+        return np.asarray(corners[:, [[1, 2], [2, 0], [0, 1]]][neighbors < 0])
+
+    def _segments(self) -> Ints:
+        """The segments of the border with the mesh on their right, others as they were given."""
+        segments = self.mesh.segments
+        return np.where(_among(segments, self._border)[:, None], segments[:, ::-1], segments)
+
     def _segment_markers(self) -> Ints:
         """Those that were given; of others 1 on the border."""
-        markers = np.append(self.given.segment_markers, 0)[self.origin]
-        corners, neighbors = self.mesh.triangles, self.mesh.neighbors
-        border = np.sort(corners[:, [[1, 2], [2, 0], [0, 1]]][neighbors < 0], axis=1)
-        is_border = _among(np.sort(self.mesh.segments, axis=1), border)
+        markers = np.append(self._given_markers, 0)[self.origin]
+        is_border = _among(np.sort(self.mesh.segments, axis=1), np.sort(self._border, axis=1))
         return np.where((markers == 0) & is_border, 1, markers)
+
+    @cached_property
+    def _given_markers(self) -> Ints:
+        """For each segment that was given the first marker other than 0 of all that have its ends."""
+        markers = self.given.segment_markers
+        _, sames = np.unique(_keys(np.sort(self.given.segments, axis=1)), return_inverse=True)
+        first = np.full(len(markers), len(markers))
+        marked = np.flatnonzero(markers)
+        np.minimum.at(first, sames[marked], marked)
+        return np.append(markers, 0)[first[sames]]
 
     def _vertex_markers(self, at_segments: Ints) -> Ints:
         """Those that were given; of others that of the first segment there that has one."""
         markers = np.zeros(len(self.mesh.points), np.int64)
         markers[: len(self.given.vertices)] = self.given.vertex_markers
         # Segments that were given come first; the last one that is written stays.
-        is_given = np.append(self.given.segment_markers, 0)[self.origin] != 0
+        is_given = np.append(self._given_markers, 0)[self.origin] != 0
         order = np.lexsort([self.origin, ~is_given])[::-1]
         order = order[at_segments[order] != 0]
         first = np.zeros_like(markers)
@@ -354,7 +376,13 @@ class Result:
             np.maximum.at(rank, self.mesh.segments[order, end], np.arange(len(order)))
         marked = rank >= 0
         first[marked] = at_segments[order[rank[marked]]]
-        return np.where(markers == 0, first, markers)
+        markers = np.where(markers == 0, first, markers)
+        # In holes the mesh has no segments: the first that was given and has one. Of equal indices the last one stays.
+        order = np.flatnonzero(self._given_markers)[::-1]
+        ends, values = self.given.segments[order].ravel(), np.repeat(self._given_markers[order], 2)
+        is_bare = markers[ends] == 0
+        markers[ends[is_bare]] = values[is_bare]
+        return markers
 
     def _triangle_attributes(self) -> Floats:
         """Those of regions, or of the triangles that were there at the centroids."""

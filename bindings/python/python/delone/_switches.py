@@ -86,8 +86,6 @@ def parse(opts: str) -> Switches:
             raise ValueError("switch u: there is no test of users here; delone.mesh has size=")
         elif letter not in _HARMLESS + "- ":
             raise ValueError(f"there is no switch {letter!r}, in {opts!r}")
-    if found.min_angle > 34 and found.max_vertices is None:
-        raise ValueError(f"switch q: {found.min_angle:g} degrees; more than 34 need a largest number of vertices, switch S")
     return found
 
 
@@ -102,7 +100,7 @@ def _angle(number: str) -> float:
     """The usual one if nothing is said."""
     angle = _read(number, "q") if number else 20.0
     if not 0 <= angle < 60:
-        raise ValueError(f"switch q: {number} degrees; it must be from 0 to 34, or less than 60 with switch S")
+        raise ValueError(f"switch q: {number} degrees; it must be from 0 to less than 60")
     return angle
 
 

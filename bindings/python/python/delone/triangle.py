@@ -6,6 +6,7 @@ What is inside of it is not Shewchuk's Triangle: it is exact, always ends, and m
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -31,7 +32,7 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
         `triangles` (t, 3), `triangle_attributes` (t, k), `triangle_max_area` (t, 1). Other arrays of results are ignored.
     opts : str
         Switches. p: with segments, holes and regions. r: refines `triangles`. q: no angle below 20 degrees, or below the number
-        that follows. a: no area above the number that follows; without one those of `regions`, or with r `triangle_max_area`.
+        that follows; more than 34 are tried, with a warning where they are not reached. a: no area above the number that follows; without one those of `regions`, or with r `triangle_max_area`.
         A: attributes of regions. c: all of the hull. D: conforming Delaunay. Y: no new vertices on the border, YY: on no segment.
         S: with so many new vertices at most. O: without holes. j: without vertices that no triangle has. o2: with vertices in
         the middles of edges. e, n: with edges, neighbors. B, N, E, P: without markers, vertices, triangles, segments.
@@ -41,7 +42,8 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
     -------
     dict
         `vertices` float64, those given first; `triangles`, `segments`, `neighbors`, `edges` and all markers int32; attributes
-        float64. Attributes of new vertices are linear between those given. What is empty is left out.
+        float64. Attributes of new vertices are linear between those given. What is empty is left out. Edges run counter-clockwise
+        around the first of their triangles. Segments of the border have the mesh on their right, others run as they were given.
 
     Raises
     ------
@@ -58,7 +60,12 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
     """
     switches = parse(opts)
     given = Given.of(tri, switches)
-    return Result(given, switches, *refined(given, switches)).arrays()
+    result = Result(given, switches, *refined(given, switches))
+    if switches.min_angle > 34 and switches.max_vertices is None and (left := result.mesh.report.reasons.count("budget")):
+        # Triangle would not end.
+        words = f"{left} triangles have an angle of less than {switches.min_angle:g} degrees: up to 34 are reached, more are tried"
+        warnings.warn(words, stacklevel=2)
+    return result.arrays()
 
 
 def delaunay(pts: ArrayLike) -> NDArray[np.int32]:
@@ -67,8 +74,8 @@ def delaunay(pts: ArrayLike) -> NDArray[np.int32]:
 
 
 def convex_hull(pts: ArrayLike) -> NDArray[np.int32]:
-    """The edges of the convex hull of points, counter-clockwise; points that are on it are corners: (k, 2)."""
-    return Delaunay(as_points(pts, "pts", 2)).convex_hull
+    """The edges of the convex hull of points, clockwise as Triangle has them; points that are on it are corners: (k, 2)."""
+    return np.ascontiguousarray(Delaunay(as_points(pts, "pts", 2)).convex_hull[::-1, ::-1])
 
 
 def voronoi(

@@ -46,7 +46,7 @@ pub(crate) struct MeshArgs {
     /// Triangle's switches, such as pq30a.1; without -o its files are written beside the input.
     #[arg(long, value_name = "SWITCHES", value_parser = Switches::parse, allow_hyphen_values = true, conflicts_with_all = SAID)]
     pub(crate) triangle: Option<Switches>,
-    /// No smaller angles, in degrees, but where the input forces them: 0 to 34, or less than 60 with --max-vertices [default: 20].
+    /// No smaller angles, in degrees, but where the input forces them: from 0 to less than 60. More than 34 are tried, with twice the vertices of 34 at most if --max-vertices says nothing [default: 20].
     #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", help_heading = "Quality")]
     pub(crate) min_angle: Option<f64>,
     /// No larger triangles. Regions of .poly files may have smaller bounds of their own.

@@ -59,13 +59,7 @@ impl Plan {
         };
         // Wrong numbers are refused before anything is read.
         plan.refinement().run(&mut Constrained2::new()).map_err(|error| {
-            let help = match error {
-                delone::Error::Parameter { name: "min_angle", value, .. } if value > 0.0 && value < 60.0 => {
-                    "ask for 34 degrees at most, or bound the new vertices with --max-vertices (S in Triangle's switches)"
-                }
-                _ => "give a number in that range",
-            };
-            Failure::usage(error.to_string().replace('_', "-"), help)
+            Failure::usage(error.to_string().replace('_', "-"), "give a number in that range")
         })?;
         Ok(plan)
     }

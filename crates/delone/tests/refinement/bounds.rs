@@ -184,7 +184,7 @@ fn what_cannot_be_is_an_error() {
         }
         assert_eq!(d.points(), c.points());
     };
-    for degrees in [34.1, 60.0, -1.0, f64::NAN, f64::INFINITY] {
+    for degrees in [60.0, -1.0, f64::NAN, f64::INFINITY] {
         parameter(Refinement::new().min_angle(degrees), "min_angle");
     }
     parameter(Refinement::new().min_angle(60.0).max_vertices(10), "min_angle");
@@ -252,6 +252,22 @@ fn sizes_at_the_ends_of_the_range() {
         let how = Refinement::new().conforming(true).max_vertices(1000);
         how.run(&mut c).expect("whatever can be measured");
         c.check().expect("canonical");
+    }
+}
+
+/// More than 34 degrees are tried: they are reached, or the report says that vertices were used up.
+#[test]
+fn steeper_angles_are_tried() {
+    let square = [[0, 0], [1, 0], [1, 1], [0, 1]];
+    for (degrees, is_reached) in [(34.3, true), (45.0, false), (59.9, false)] {
+        let mut c = Constrained2::from_parts(&square, &[]).expect("a square");
+        let how = Refinement::new().max_area(0.01);
+        let steepest = how.min_angle(34.0).run(&mut c.clone()).expect("an end").report;
+        let report = how.min_angle(degrees).run(&mut c).expect("an end").report;
+        assert_eq!(report.inside + report.on_constraints + square.len(), c.vertex_count());
+        assert_eq!(report.left.is_empty(), is_reached, "{degrees} degrees: {:?}", report.left);
+        assert!(report.smallest_angle >= degrees || report.left_for(Reason::Budget) > 0);
+        assert!(c.vertex_count() <= 2 * (steepest.inside + steepest.on_constraints + square.len()));
     }
 }
 

@@ -118,8 +118,9 @@ fn origins(c: &Constrained2, done: &Done) -> Vec<Origin> {
     (0..c.points().len()).map(of).collect()
 }
 
-/// The largest smallest angle without a budget of vertices, in degrees.
-const STEEPEST: f64 = 34.0;
+/// Degrees, up to which refinement ends by itself in practice. At 34 meshes have some 1.2 times as many triangles as at 30; from 35 on
+/// there are inputs on which new vertices make new faults without end.
+const STEEPEST_THAT_ENDS: f64 = 34.0;
 
 impl<'a> Refinement<'a> {
     /// All angles at least 20 degrees, in all of the hull.
@@ -140,8 +141,9 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// No angle is to be smaller than so many degrees: 0, which asks for nothing, to 34, or less than 60 with
-    /// [`Self::max_vertices`].
+    /// No angle is to be smaller than so many degrees: 0, which asks for nothing, to less than 60. Up to 34 are reached wherever the
+    /// input lets them. More are tried: first 34, then what is asked for with at most as many new vertices as there are vertices by then,
+    /// if [`Self::max_vertices`] says nothing else. The report tells what is left.
     ///
     /// ```
     /// use delone::{Constrained2, Refinement};
@@ -304,6 +306,19 @@ impl<'a> Refinement<'a> {
     /// ```
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
+        if self.min_angle <= STEEPEST_THAT_ENDS || self.max_vertices.is_some() {
+            return self.run_to_the_end(c);
+        }
+        let first = Self { min_angle: STEEPEST_THAT_ENDS, smoothing: 0, ..*self }.run_to_the_end(c)?;
+        let steeper =
+            Refinement { max_vertices: Some(c.vertex_count()), fill: Fill::Parts(&first.domains), ..*self };
+        let mut refined = steeper.run_to_the_end(c)?;
+        refined.report.inside += first.report.inside;
+        refined.report.on_constraints += first.report.on_constraints;
+        Ok(refined)
+    }
+
+    fn run_to_the_end(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         let mut domains = c.domains(&self.fill)?;
         self.check_count(c, &domains)?;
         c.close(&domains)?;
@@ -347,10 +362,8 @@ impl<'a> Refinement<'a> {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let most = if self.max_vertices.is_some() { 60.0 } else { STEEPEST };
-        let is_angle = (0.0..=most).contains(&self.min_angle) && self.min_angle < 60.0;
-        if !is_angle {
-            let range = "from 0 to 34 degrees, or less than 60 with a largest number of new vertices";
+        if !(0.0..60.0).contains(&self.min_angle) {
+            let range = "from 0 to less than 60 degrees";
             return Err(Error::Parameter { name: "min_angle", value: self.min_angle, range });
         }
         let bounds = [("max_area", self.max_area), ("max_edge", self.max_edge)];
