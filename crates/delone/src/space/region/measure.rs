@@ -14,6 +14,16 @@ fn less(p: Point, q: Point) -> Point {
     [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
+/// From one point to another, scaled: also where the way between them is beyond the range of `f64`.
+#[inline]
+fn seen(p: Point, from: Point, scale: f64) -> Point {
+    let way = less(p, from);
+    if scale == 1.0 || way.iter().all(|x| x.is_finite()) {
+        return way.map(|x| x * scale);
+    }
+    less(p.map(|x| x * scale), from.map(|x| x * scale))
+}
+
 #[inline]
 fn dot(p: Point, q: Point) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
@@ -32,9 +42,9 @@ fn triangles(
     scale: f64,
     mut each: impl FnMut(Point, Point, Point),
 ) {
-    let mut seen = face.map(|p| less(p, from).map(|x| x * scale));
-    let (Some(a), Some(mut b)) = (seen.next(), seen.next()) else { return };
-    for c in seen {
+    let mut corners = face.map(|p| seen(p, from, scale));
+    let (Some(a), Some(mut b)) = (corners.next(), corners.next()) else { return };
+    for c in corners {
         each(a, b, c);
         b = c;
     }
@@ -123,7 +133,12 @@ pub(in crate::space) fn centroid<F: Iterator<Item = Point>>(
             (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
         }
     }
-    Some([0, 1, 2].map(|k| (from[k] + moment[k] / volume / 4.0 / scale).clamp(low[k], high[k])))
+    let center = |k: usize| {
+        let way = moment[k] / volume / 4.0;
+        let plain = way / scale;
+        if plain.is_finite() { from[k] + plain } else { (from[k] * scale + way) / scale }
+    };
+    Some([0, 1, 2].map(|k| center(k).clamp(low[k], high[k])))
 }
 
 /// The outward normal of a face, as long as its area; in units of a power of two, which is the second.
@@ -181,6 +196,14 @@ mod tests {
                 assert_eq!(direction(area_vector(base.into_iter()).0), Some([0.0, 0.0, -1.0]));
             }
         }
+        // The way between two corners is beyond all numbers.
+        let corner = |p: [f64; 3]| p.map(|x| x * 2f64.powi(1023));
+        let [o, x, y, z] = [[-1.0; 3], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(corner);
+        let faces = [[o, y, x], [o, x, z], [o, z, y], [x, y, z]];
+        let faces = || faces.iter().map(|face| face.iter().copied());
+        assert_eq!((volume(faces()), area(faces().flatten())), (f64::INFINITY, f64::INFINITY));
+        assert_eq!(centroid(faces()), Some(corner([-0.5; 3])));
+        assert_eq!(direction(area_vector([o, y, x].into_iter()).0), Some([0.0, 0.0, -1.0]));
         assert_eq!(volume(std::iter::empty::<std::array::IntoIter<[f64; 3], 3>>()), 0.0);
     }
 }
