@@ -2,7 +2,7 @@
 
 use std::ops::{AddAssign, Mul};
 
-use super::reduced::{Basis, Reduced};
+use super::reduced::{Basis, Reduced, check_length};
 use crate::decimal::{DecimalGrid, MOST_EXACT};
 use crate::error::{Error, LatticeProblem};
 
@@ -119,6 +119,8 @@ impl<const D: usize> Lattice<D> {
     pub(super) fn prepare(&self, points: &[[f64; D]]) -> Result<Prepared<D>, Error> {
         let decimal = self.decimal(points);
         let axes = self.axes.map(|axis| axis.map(|x| decimal.map_or(x, |grid| grid.index(x))));
+        // In steps of a decimal grid axes that do not repeat may be out of range, too, and volumes with them.
+        axes.iter().enumerate().try_for_each(|(axis, vector)| check_length(axis, vector))?;
         let basis = Basis::new(axes, self.periodic)?;
         let beside = basis.beside(points.iter().map(|p| p.map(|x| decimal.map_or(x, |grid| grid.index(x)))));
         let mut steps = [None; D];
