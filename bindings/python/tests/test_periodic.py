@@ -118,6 +118,21 @@ def test_bad_arguments_are_named(arguments, message):
         delone.Periodic([[0.0, 0, 0]], **arguments)
 
 
+@pytest.mark.parametrize("grid", [None, "auto", 0.1])
+@pytest.mark.parametrize(("side", "origin"), [(0.55, 0.0), (0.5, 0.0123), (1.25, -0.77)])
+def test_walls_are_where_they_are(grid, side, origin):
+    points = (np.array(list(itertools.product(range(4), repeat=3))) + 1) * 0.1
+    v = delone.Voronoi(points, box=[side] * 3, periodic=False, grid=grid, origin=[origin] * 3)
+    assert v.volumes.sum() == pytest.approx(side**3, rel=1e-13)
+    corners = np.vstack([corners for corners, _ in v.in_box.polyhedra()])
+    np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[origin] * 3, [origin + side] * 3], atol=1e-15)
+
+
+def test_what_moves_is_told():
+    p = delone.Periodic([[0.1, 0.1, 0.1]], [0.5, 0.5, 0.54], grid=0.1)
+    assert p.volumes.sum() == pytest.approx(0.125) and p.rounding == pytest.approx(0.04)
+
+
 @pytest.mark.parametrize("periodic", [None, 2, "xyz", [None] * 3])
 def test_axes_are_truths(periodic):
     with pytest.raises(TypeError, match="periodic must be True"):
@@ -136,8 +151,20 @@ def test_a_diagram_takes_a_box():
     assert v.volumes.sum() == pytest.approx(1, rel=1e-14) and len(v.nlist.indptr) == 21
     assert (v.in_box.faces.indices < 0).any() and (v.nlist.indices >= 0).all()
     assert copy.copy(v).points is v.points and "in a box" in repr(v)
-    with pytest.raises(AttributeError, match="polyhedra"):
-        _ = v.vertices
+    for name in ("vertices", "regions", "ridge_vertices", "ridge_dict", "triangulation", "point_region"):
+        with pytest.raises(AttributeError, match=f"have no {name}: see in_box"):
+            getattr(v, name)
+    assert (v.min_bound == points.min(axis=0)).all() and (v.max_bound == points.max(axis=0)).all()
+    with pytest.raises(NotImplementedError, match="make them anew"):
+        v.add_points([[0.5, 0.5, 0.5]])
+    v.close()
+    for other in (dict(furthest_site=True), dict(merge="auto")):
+        with pytest.raises(ValueError, match="without a box"):
+            delone.Voronoi(points, box=[1, 1, 1], **other)
+    with pytest.raises(ValueError, match="give box="):
+        delone.Voronoi(points, periodic=(True, True, False))
+    with pytest.raises(NotImplementedError, match="points of space"):
+        delone.Voronoi(points[:, :2], box=[1, 1])
     plain = delone.Voronoi(points)
     with pytest.raises(AttributeError, match="give box="):
         _ = plain.volumes
@@ -220,7 +247,7 @@ def face_of(points, box, i, beyond):
 
 @pytest.mark.parametrize("tilt", [(0, 0, 0), (0.5, -0.375, 0.75)])
 def test_faces_that_freud_lacks_are_there(tilt):
-    """freud skips faces for which Voro++ finds no normal, as their first sides are short: most below 1e-5 here, some much larger."""
+    """freud skips faces for which Voro++ finds no normal, as sides are short: most below 1e-5 here, some much larger."""
     freud = pytest.importorskip("freud")
     box = freud.box.Box(10, 11, 12, *tilt)
     axes = np.array(box.to_matrix(), np.float64).T

@@ -80,7 +80,7 @@ class Periodic:
     faces : Faces
         The same with walls.
     rounding : float
-        By how much coordinates were rounded at most, so that copies are exact.
+        By how much coordinates of points, and of axes that repeat, were rounded at most, so that copies are exact.
     step : float or None
         The step of the decimal grid, if there is one.
 
