@@ -1,4 +1,4 @@
-//! What holds of all cells: they are closed, share faces, have their corners where they must be, and fill the region.
+//! Conditions of all cells: they are closed, share faces, have their corners where they must be, and fill the region.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -147,7 +147,7 @@ pub(super) fn judge_volumes(cells: &Cells3, sites: &[Site], region: &Region3) ->
     Ok(())
 }
 
-/// What rounding makes of a volume where walls are slanted: of nothing a needle's length cubed.
+/// The volume that rounding makes of nothing where walls are slanted: a part of a needle's length cubed.
 pub(super) fn noise(region: &Region3) -> f64 {
     let [low, high] = region.bounds();
     let is_box = region.corners().iter().all(|p| (0..3).all(|k| p[k] == low[k] || p[k] == high[k]));

@@ -30,8 +30,8 @@ pub(crate) enum Item {
     Cuboid([f64; 3], [f64; 3]),
 }
 
-/// So many sites are shared among threads, and too many for definitions.
-const LARGE: usize = 2048;
+/// The number of sites from which threads share them; too many for definitions.
+const LEAST_SHARED: usize = 2048;
 
 /// A diagram of either kind.
 trait Diagram {
@@ -142,7 +142,7 @@ impl Attack for Cells3d {
     fn make(random: &mut Random) -> Vec<Item> {
         if once_in(random, 60) {
             let kind = pick(random, &[Kind3::Cube, Kind3::Grid3, Kind3::SlantedGrid]);
-            let points = kind.points(LARGE + random.below(3 * LARGE), random.bits());
+            let points = kind.points(LEAST_SHARED + random.below(3 * LEAST_SHARED), random.bits());
             return nasty::weighted(random, points).into_iter().map(|(p, w)| Item::Site(p, w)).collect();
         }
         let points = match random.below(3) {
@@ -181,7 +181,7 @@ impl Attack for Cells3d {
             Err(Error::NoVolume) if !has_inside => return Ok(()),
             other => return Err(format!("a region of {has_inside} inside: {other:?}")),
         };
-        if sites.len() >= LARGE {
+        if sites.len() >= LEAST_SHARED {
             judge_threads(&d.voronoi(), sites.len(), &region)?;
             let r = Regular3::from_parts(&points, &weights).map_err(|error| error.to_string())?;
             return judge_threads(&r.power(), sites.len(), &region)

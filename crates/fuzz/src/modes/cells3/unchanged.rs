@@ -1,4 +1,4 @@
-//! What must not show in cells: threads, the order of sites, mirrors, units.
+//! Changes that must not show in cells: of threads, the order of sites, mirrors, units.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,16 +6,16 @@ use delone::{Across3, Cells3, Region3, Regular3, VertexId};
 use delone_generators::Random;
 
 use super::judges::{ROUNDING, extent, from_least, judge_faces};
-use super::{Diagram, LARGE, Site};
+use super::{Diagram, LEAST_SHARED, Site};
 use crate::attack::Judgement;
 use crate::nasty;
 
-/// What is beyond a face by its place, and the corners from the least on, as bits.
+/// A face: the place of the site beyond it or the number of the wall, and the corners from the least on, as bits.
 type Polygon = (Option<[u64; 3]>, usize, Vec<[u64; 3]>);
 
 /// The number of threads does not show.
 pub(super) fn judge_threads(diagram: &(impl Diagram + Sync), count: usize, region: &Region3) -> Judgement {
-    delone::share_work_from(LARGE);
+    delone::share_work_from(LEAST_SHARED);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.map(|pool| pool.install(|| diagram.clip(region))).map_err(|error| error.to_string())
