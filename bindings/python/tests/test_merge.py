@@ -5,6 +5,7 @@ from itertools import product
 import delone
 import numpy as np
 import pytest
+from scipy.spatial import Voronoi
 
 #: Lattices by their vectors, and the faces of the cell of a point: the Brillouin zones of the reciprocal ones.
 LATTICES = {
@@ -38,6 +39,61 @@ def test_cells_of_crystals_have_their_faces(name):
             assert all(-1 not in ridge and len(set(ridge)) == len(ridge) for ridge in faces)
             assert set(diagram.regions[diagram.point_region[len(points) // 2]]) == set().union(*faces)
     assert max(exact) >= expected
+
+
+GOLDEN = (1 + 5**0.5) / 2
+
+
+def all_signs(*triples):
+    """Points by their coordinates in all cyclic orders, with all signs."""
+    rolled = [np.roll(triple, k) for triple in triples for k in range(3)]
+    return np.unique([sign * p + 0.0 for sign in map(np.array, product((1, -1), repeat=3)) for p in rolled], axis=0)
+
+
+def signature(diagram):
+    """Vertices, and ridges that are more than a line by their points and the places of their vertices."""
+
+    def place(v):
+        return None if v < 0 else tuple(np.round(diagram.vertices[v], 6) + 0.0)
+
+    ridges = zip(np.sort(diagram.ridge_points, axis=1).tolist(), diagram.ridge_vertices, strict=True)
+    found = {tuple(pair): frozenset(map(place, ridge)) for pair, ridge in ridges}
+    return len(diagram.vertices), {pair: places for pair, places in found.items() if len(places) > 2 or None in places}
+
+
+@pytest.mark.parametrize(
+    ("points", "vertices"),
+    [
+        (all_signs([0, 1, GOLDEN]), 1),
+        (all_signs([1, 1, 1], [0, 1 / GOLDEN, GOLDEN]), 1),
+        (all_signs([0, 1, 3 * GOLDEN], [1, 2 + GOLDEN, 2 * GOLDEN], [GOLDEN, 2, 2 * GOLDEN + 1]), 1),
+        (np.array(list(product((0.1, 0.3), (0.7, 7.5), (-2.2, 0.4)))), 1),
+    ],
+)
+def test_solids_are_those_of_scipy(points, vertices):
+    """Pentagons and hexagons are flat but for rounding: slivers of the hull, each with a sphere of its own."""
+    random = np.random.default_rng(8)
+    for _ in range(5):
+        for merge_of, expected in ((points, vertices), (np.vstack([points, points.mean(axis=0)]), None)):
+            given = merge_of @ turned(random, 3)
+            diagram = delone.Voronoi(given, merge="auto")
+            assert expected is None or len(diagram.vertices) == expected
+            assert signature(diagram) == signature(Voronoi(given))
+
+
+@pytest.mark.parametrize("corners", [4, 5, 6, 8])
+def test_rings_between_two_spheres_have_no_vertex_of_their_own(corners):
+    """Flat tetrahedra inside: their centers are anywhere between those of what is on both sides."""
+    angles = 2 * np.pi / corners * np.arange(corners)
+    ring = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    apexes = [[0, 0, 1.3], [0, 0, -2.1], [0, 0, 6], [0, 0, -7], [8, 0, 0], [-8, 0, 1], [0, 8, 0], [0, -8, 1]]
+    random = np.random.default_rng(corners)
+    more = 0
+    for _ in range(8):
+        points = np.vstack([ring, apexes]) @ turned(random, 3)
+        assert signature(delone.Voronoi(points, merge="auto")) == signature(Voronoi(points))
+        more += len(delone.Voronoi(points).vertices) > len(Voronoi(points).vertices)
+    assert more > 4
 
 
 def test_lattices_of_decimals_have_square_cells():

@@ -2,6 +2,7 @@
 
 import copy
 import itertools
+from fractions import Fraction
 
 import delone
 import numpy as np
@@ -106,6 +107,8 @@ def test_copies_are_duplicates():
         (dict(box=[1, 1, 1], radii=[1, 2]), "radii must have the shape"),
         (dict(box=[1, 1, 1], radii=[-1]), "point 0 has the radius -1"),
         (dict(box=[1, 1, 1], radii=[np.nan]), "radii: point 0"),
+        (dict(box=[1, 1, 1], radii=[1e200]), "point 0 has the radius 1e\\+200, the square"),
+        (dict(box=[1, 1, 1], periodic=False, grid=1e-300), "axis 0 of the lattice"),
         (dict(box=[1, 1, 1], grid="fine"), "grid must be"),
         (dict(box=[1, 1, 1], grid=-1.0), "grid must be"),
     ],
@@ -115,14 +118,53 @@ def test_bad_arguments_are_named(arguments, message):
         delone.Periodic([[0.0, 0, 0]], **arguments)
 
 
+@pytest.mark.parametrize("grid", [None, "auto", 0.1])
+@pytest.mark.parametrize(("side", "origin"), [(0.55, 0.0), (0.5, 0.0123), (1.25, -0.77)])
+def test_walls_are_where_they_are(grid, side, origin):
+    points = (np.array(list(itertools.product(range(4), repeat=3))) + 1) * 0.1
+    v = delone.Voronoi(points, box=[side] * 3, periodic=False, grid=grid, origin=[origin] * 3)
+    assert v.volumes.sum() == pytest.approx(side**3, rel=1e-13)
+    corners = np.vstack([corners for corners, _ in v.in_box.polyhedra()])
+    np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[origin] * 3, [origin + side] * 3], atol=1e-15)
+
+
+def test_what_moves_is_told():
+    p = delone.Periodic([[0.1, 0.1, 0.1]], [0.5, 0.5, 0.54], grid=0.1)
+    assert p.volumes.sum() == pytest.approx(0.125) and p.rounding == pytest.approx(0.04)
+
+
+@pytest.mark.parametrize("periodic", [None, 2, "xyz", [None] * 3])
+def test_axes_are_truths(periodic):
+    with pytest.raises(TypeError, match="periodic must be True"):
+        delone.Periodic([[0.0, 0, 0]], [1, 1, 1], periodic)
+
+
+@pytest.mark.parametrize("grid", [True, [0.1], b"auto"])
+def test_steps_are_numbers(grid):
+    with pytest.raises(TypeError, match="grid must be"):
+        delone.Periodic([[0.0, 0, 0]], [1, 1, 1], grid=grid)
+
+
 def test_a_diagram_takes_a_box():
     points = np.random.default_rng(6).random((20, 3))
     v = delone.Voronoi(points, box=[1, 1, 1], periodic=(True, True, False))
     assert v.volumes.sum() == pytest.approx(1, rel=1e-14) and len(v.nlist.indptr) == 21
     assert (v.in_box.faces.indices < 0).any() and (v.nlist.indices >= 0).all()
     assert copy.copy(v).points is v.points and "in a box" in repr(v)
-    with pytest.raises(AttributeError, match="polyhedra"):
-        _ = v.vertices
+    for name in ("vertices", "regions", "ridge_vertices", "ridge_dict", "triangulation", "point_region"):
+        with pytest.raises(AttributeError, match=f"have no {name}: see in_box"):
+            getattr(v, name)
+    assert (v.min_bound == points.min(axis=0)).all() and (v.max_bound == points.max(axis=0)).all()
+    with pytest.raises(NotImplementedError, match="make them anew"):
+        v.add_points([[0.5, 0.5, 0.5]])
+    v.close()
+    for other in (dict(furthest_site=True), dict(merge="auto")):
+        with pytest.raises(ValueError, match="without a box"):
+            delone.Voronoi(points, box=[1, 1, 1], **other)
+    with pytest.raises(ValueError, match="give box="):
+        delone.Voronoi(points, periodic=(True, True, False))
+    with pytest.raises(NotImplementedError, match="points of space"):
+        delone.Voronoi(points[:, :2], box=[1, 1])
     plain = delone.Voronoi(points)
     with pytest.raises(AttributeError, match="give box="):
         _ = plain.volumes
@@ -160,3 +202,67 @@ def test_freud_finds_the_same_neighbors():
     voronoi.compute((freud.box.Box.cube(8), points))
     np.testing.assert_allclose(np.sort(p.volumes), np.sort(voronoi.volumes), rtol=1e-4)
     assert len(p.nlist.indices) == pytest.approx(len(voronoi.nlist), abs=4)
+
+
+def face_of(points, box, i, beyond):
+    """The area of the face between a point and a copy in exact fractions: its plane, cut by all copies of points nearby."""
+
+    def copy_of(j, offset):
+        return [
+            Fraction(x) + sum(int(k) * Fraction(a) for k, a in zip(offset, axis, strict=True))
+            for x, axis in zip(points[j].tolist(), box.T.tolist(), strict=True)
+        ]
+
+    here, there = copy_of(i, (0, 0, 0)), copy_of(*beyond)
+    normal = [q - p for p, q in zip(here, there, strict=True)]
+    # Two directions in the plane, and a square of it around its middle that holds the face.
+    u = [normal[1], -normal[0], 0] if normal[0] or normal[1] else [1, 0, 0]
+    v = [normal[1] * u[2] - normal[2] * u[1], normal[2] * u[0] - normal[0] * u[2], normal[0] * u[1] - normal[1] * u[0]]
+    long = [8 / float(sum(x * x for x in w)) ** 0.5 for w in (u, v)]
+    corner = [[Fraction(s * long[0]), Fraction(t * long[1])] for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    middle = [(p + q) / 2 for p, q in zip(here, there, strict=True)]
+    shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)))
+    away = np.linalg.norm(points[None] + (shifts @ box)[:, None] - points[i], axis=2)
+    for shift, j in zip(*np.nonzero(away < 4), strict=True):
+        other = copy_of(j, shifts[shift])
+        if other in (here, there):
+            continue
+        # Twice x (other - here) <= |other|^2 - |here|^2, in coordinates of the plane.
+        n = [2 * (q - p) for p, q in zip(here, other, strict=True)]
+        a, b = (sum(x * y for x, y in zip(n, w, strict=True)) for w in (u, v))
+        c = sum(q * q - p * p - m * x for p, q, m, x in zip(here, other, middle, n, strict=True))
+        sides = [a * s + b * t - c for s, t in corner]
+        kept = []
+        for k, (p, side) in enumerate(zip(corner, sides, strict=True)):
+            before, beside = corner[k - 1], sides[k - 1]
+            if beside * side < 0:
+                kept.append([x + beside / (beside - side) * (y - x) for x, y in zip(before, p, strict=True)])
+            if side <= 0:
+                kept.append(p)
+        corner = kept
+    twice = sum(corner[k - 1][0] * corner[k][1] - corner[k - 1][1] * corner[k][0] for k in range(len(corner)))
+    scale = sum(x * x for x in u) * sum(x * x for x in v)
+    return float(twice) / 2 * float(scale) ** 0.5
+
+
+@pytest.mark.parametrize("tilt", [(0, 0, 0), (0.5, -0.375, 0.75)])
+def test_faces_that_freud_lacks_are_there(tilt):
+    """freud skips faces for which Voro++ finds no normal, as sides are short: most below 1e-5 here, some much larger."""
+    freud = pytest.importorskip("freud")
+    box = freud.box.Box(10, 11, 12, *tilt)
+    axes = np.array(box.to_matrix(), np.float64).T
+    points = box.wrap((np.random.default_rng(0).random((2000, 3)) - 0.5) @ axes).astype(np.float64)
+    p = delone.Periodic(points, axes)
+    voronoi = freud.locality.Voronoi()
+    voronoi.compute((box, points))
+    np.testing.assert_allclose(p.volumes, voronoi.volumes, atol=1e-6)
+    of = np.repeat(np.arange(len(points)), np.diff(p.nlist.indptr))
+    theirs = set(map(tuple, voronoi.nlist[:].tolist()))
+    ours = list(zip(of.tolist(), p.nlist.indices.tolist(), strict=True))
+    assert theirs <= set(ours) and p.rounding == 0
+    missing = [k for k, pair in enumerate(ours) if pair not in theirs]
+    assert len(missing) > 20 and np.median(p.nlist.areas[missing]) < 1e-5
+    for k in missing[:: len(missing) // 10]:
+        i, j = ours[k]
+        expected = face_of(points, axes, i, (j, p.nlist.offsets[k]))
+        assert expected > 0 and p.nlist.areas[k] == pytest.approx(expected, rel=1e-5)

@@ -259,12 +259,7 @@ fn region(args: &VoronoiArgs, points: &[[f64; 3]], grid: Option<DecimalGrid>) ->
         return Region3::convex(points)
             .map_err(|_| Failure::new("the sites span no volume, so their hull has none", HELP));
     }
-    // What is a multiple is one exactly.
-    let in_steps = |x: f64| match grid {
-        Some(grid) if grid.nearest(x) == x => grid.index(x),
-        Some(grid) => x / grid.step(),
-        None => x,
-    };
+    let in_steps = |x: f64| grid.map_or(x, |grid| grid.in_steps(x));
     let [low, high] = match args.bounds[..] {
         [] => {
             let bounds = Bounds::of(points.iter().copied());

@@ -79,6 +79,18 @@ impl DecimalGrid {
         (x * self.parts / self.times).round_ties_even() + 0.0
     }
 
+    /// A coordinate in steps, an integer only if it is a multiple but for rounding: for what is beside the points of the grid.
+    ///
+    /// ```
+    /// let grid = delone::DecimalGrid::with_step(0.1)?;
+    /// assert_eq!((grid.in_steps(0.1 + 0.2), grid.in_steps(0.25)), (3.0, 2.5));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn in_steps(self, x: f64) -> f64 {
+        let off = ROUNDINGS * (x.abs().next_up() - x.abs());
+        if (self.nearest(x) - x).abs() <= off { self.index(x) } else { x * self.parts / self.times }
+    }
+
     /// An area, or the square of a length, in squares of the step, rounded twice.
     pub fn area(self, area: f64) -> f64 {
         area * (self.parts * self.parts) / (self.times * self.times)

@@ -431,3 +431,42 @@ fn cells_tile_the_box() {
         }
     }
 }
+
+/// Walls are where they are, whatever grid the points are on; and what moves is told.
+#[test]
+fn grids_leave_walls_where_they_are() {
+    let points: Vec<[f64; 3]> =
+        (0..64).map(|i| [i % 4, i / 4 % 4, i / 16].map(|x| 0.1 * f64::from(x) + 0.1)).collect();
+    let tenths = Grid::Decimal(delone::DecimalGrid::with_step(0.1).expect("a step"));
+    let sum = |t: &Periodic3| -> f64 {
+        let cells = t.cells().expect("cells");
+        t.vertices().map(|v| cells.cell(v).volume()).sum()
+    };
+    for grid in [Grid::Binary, Grid::Auto, tenths] {
+        for (sides, origin) in
+            [([0.55, 0.5, 0.527], [0.0; 3]), ([0.5; 3], [0.0123; 3]), ([1.25; 3], [-0.77; 3])]
+        {
+            let lattice = Lattice3::with_sides(sides).expect("a box").origin(origin).grid(grid);
+            let t = Periodic3::from_points(&points, &lattice.periodic([false; 3])).expect("points");
+            let whole: f64 = sides.iter().product();
+            assert!((sum(&t) / whole - 1.0).abs() < 1e-13, "{grid:?} {sides:?}: {}", sum(&t));
+            let cells = t.cells().expect("cells");
+            let mut walls: Vec<[f64; 3]> = Vec::new();
+            for v in t.vertices() {
+                let cell = cells.cell(v);
+                for face in cell.faces().filter(|face| face.neighbor().is_none()) {
+                    walls.extend(face.points());
+                }
+            }
+            for k in 0..3 {
+                let least = walls.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+                assert!((least - origin[k]).abs() < 1e-15, "{grid:?} {sides:?}: {least}");
+            }
+        }
+    }
+    // An axis that repeats has to be on the grid.
+    let t =
+        Periodic3::from_points(&points, &Lattice3::with_sides([0.5, 0.5, 0.54]).expect("a box").grid(tenths));
+    let t = t.expect("points");
+    assert!((sum(&t) - 0.125).abs() < 1e-13 && (t.rounding() - 0.04).abs() < 1e-13, "{}", t.rounding());
+}

@@ -53,6 +53,8 @@ pub(crate) enum Mode {
     Motion,
     /// Voronoi cells clipped to regions.
     Cells,
+    /// Voronoi and power cells of space in boxes and convex bodies: corners, faces, volumes, orders.
+    Cells3,
     /// Segments between points: building, crossings, changes.
     Graphs,
     /// Refinement of graphs: bounds of angles and sizes, what is kept, orders of the input.
@@ -119,18 +121,20 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// The modes that `all` runs.
-    pub(crate) const REAL: [Self; 25] = [
+    pub(crate) const REAL: [Self; 27] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
+        Self::Cells3,
         Self::Graphs,
         Self::Mesh,
         Self::Surfaces,
         Self::Tiles,
         Self::Weights,
         Self::Alphas,
+        Self::Periodic,
         Self::Orders,
         Self::Hulls,
         Self::Proximity,
@@ -189,7 +193,16 @@ pub(crate) fn written(indices: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{indices, number, written};
+    use super::{Mode, indices, number, written};
+    use clap::ValueEnum;
+
+    #[test]
+    fn all_runs_every_mode_that_is_shown() {
+        let shown = Mode::value_variants().iter().filter(|mode| {
+            mode.to_possible_value().is_some_and(|value| !value.is_hide_set()) && **mode != Mode::All
+        });
+        assert_eq!(shown.copied().collect::<Vec<_>>(), Mode::REAL);
+    }
 
     #[test]
     fn lists_of_indices_are_read_as_they_are_written() {

@@ -7,7 +7,7 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders,
+    alphas, broken, cells, cells3, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders,
     periodic, plane, predicates, program, proximity, space, surfaces, tiles, weights,
 };
 
@@ -69,6 +69,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Motion, 0) => made::<motion::Motion<2>>(seed),
         (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
         (Mode::Cells, _) => made::<cells::Cells>(seed),
+        (Mode::Cells3, _) => made::<cells3::Cells3d>(seed),
         (Mode::Graphs, 0) => made::<graphs::Graphs>(seed),
         (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
         (Mode::Mesh, _) => made::<mesh::Mesh>(seed),

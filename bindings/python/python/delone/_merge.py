@@ -34,11 +34,13 @@ def length_of(merge: Merge, *arrays: NDArray[np.float64]) -> float | None:
 
 def merged_centers(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """For each simplex the vertex that its center becomes, and whether there is one: it is infinitely far away for slivers of the
-    hull that are flat within the length."""
+    hull that are flat within the length. Other flat tetrahedra have that of what is beside them."""
     rows, neighbors = tri._centers(), tri._arrays()[1]
     kept: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(rows), axis=1, dtype=bool)
     if not tri.furthest_site:
         kept[_slivers(tri, rows, length)] = False
+        if tri.ndim == 3:
+            rows = _beside_flat(tri, rows, kept, length)
     row, corner = np.nonzero(neighbors > np.arange(len(rows))[:, None])
     sides = np.empty((len(row), 2), dtype=np.int64)
     sides[:, 0], sides[:, 1] = row, neighbors[row, corner]
@@ -68,7 +70,8 @@ def _slivers(tri: Delaunay, rows: NDArray[np.float64], length: float) -> NDArray
 
 
 def _is_flat(corners: NDArray[np.float64], centers: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
-    """Whether circles or spheres are as flat as the length along the longest edges of their simplices."""
+    """Whether circles or spheres are as flat as the length along the longest edges of their simplices, or tetrahedra themselves:
+    of four corners on one circle but for rounding the sphere is any through that."""
     at = corners.T
     with np.errstate(over="ignore", invalid="ignore"):
         squares = [((at[:, i] - at[:, j]) ** 2).sum(axis=0) for i in range(at.shape[1]) for j in range(i)]
@@ -76,5 +79,52 @@ def _is_flat(corners: NDArray[np.float64], centers: NDArray[np.float64], length:
         radius = np.sqrt(((centers.T - at[:, 0]) ** 2).sum(axis=0))
         # The height of an arc over its chord.
         is_flat: NDArray[np.bool_] = (radius > longest) & (longest / radius * longest <= 8 * length)
+        if len(at) == 3:
+            is_flat |= _are_flat(corners, length)
     is_flat[~np.isfinite(centers).all(axis=1)] = True
     return is_flat
+
+
+def _are_flat(corners: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
+    """Whether tetrahedra are no higher than the length, though all of their edges are longer."""
+    u, v, w = (corners[:, k] - corners[:, 0] for k in (1, 2, 3))
+    shortest = np.minimum.reduce([(edge**2).sum(axis=1) for edge in (u, v, w, v - u, w - u, w - v)])
+    normals = [np.cross(u, v), np.cross(v, w), np.cross(w, u), np.cross(v - u, w - u)]
+    largest = np.sqrt(np.maximum.reduce([(normal**2).sum(axis=1) for normal in normals]))
+    six_volumes = np.abs((normals[0] * w).sum(axis=1))
+    are_flat: NDArray[np.bool_] = (six_volumes <= length * largest) & (shortest > length * length)
+    return are_flat
+
+
+def _beside_flat(tri: Delaunay, rows: NDArray[np.float64], kept: NDArray[np.bool_], length: float) -> NDArray[np.float64]:
+    """The centers, where flat tetrahedra that are joined have one of those beside them: four corners on one circle have theirs
+    anywhere between those on both sides. Where more than two are beside them, no circle is the reason, and nothing is moved."""
+    simplices, neighbors = tri._arrays()
+    with np.errstate(over="ignore", invalid="ignore"):
+        flat = np.nonzero(kept & _are_flat(tri.points[simplices], length))[0]
+    if not len(flat):
+        return rows
+    none = len(rows)
+    order = np.lexsort(rows.T)
+    # The first and the last of the centers beside; no neighbor is the last row.
+    ends = np.stack([np.full(none + 1, none), np.full(none + 1, -1)])
+    ends[:, order] = np.arange(none)
+    ends[:, :-1][:, ~kept] = [[none], [-1]]
+    ends[:, flat] = [[none], [-1]]
+    beside = neighbors[flat]
+    while True:
+        found = np.stack([ends[0, beside].min(axis=1), ends[1, beside].max(axis=1)])
+        found = np.stack([np.minimum(found[0], ends[0, flat]), np.maximum(found[1], ends[1, flat])])
+        if (found == ends[:, flat]).all():
+            break
+        ends[:, flat] = found
+    first, last = found
+    is_beside = (ends[0, beside] < none) & ~np.isin(beside, flat)
+    places = rows[beside]
+    gaps = [np.abs(places - rows[order[end.clip(0, none - 1)]][:, None]).max(axis=2) for end in (first, last)]
+    is_other = (is_beside & (np.minimum(*gaps) > length)).any(axis=1) | (last < 0)
+    pairs = first * (none + 1) + last
+    is_one = ~np.isin(pairs, pairs[is_other])
+    moved = rows.copy()
+    moved[flat[is_one]] = rows[order[first[is_one]]]
+    return moved

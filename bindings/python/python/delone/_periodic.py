@@ -80,7 +80,7 @@ class Periodic:
     faces : Faces
         The same with walls.
     rounding : float
-        By how much coordinates were rounded at most, so that copies are exact.
+        By how much coordinates of points, and of axes that repeat, were rounded at most, so that copies are exact.
     step : float or None
         The step of the decimal grid, if there is one.
 
@@ -255,6 +255,8 @@ def as_axes(periodic: bool | Sequence[bool], ndim: int) -> list[bool]:
     """A truth for each axis."""
     if isinstance(periodic, (bool, np.bool_)):
         return [bool(periodic)] * ndim
+    if not isinstance(periodic, (Sequence, np.ndarray)) or isinstance(periodic, str):
+        raise TypeError(f"periodic must be True, False, or {ndim} of them, one for each axis, not {periodic!r}")
     axes = [as_flag(axis, "periodic") for axis in periodic]
     if len(axes) != ndim:
         raise ValueError(f"periodic must be True, False, or {ndim} of them, one for each axis, not {len(axes)}")
@@ -276,6 +278,8 @@ def as_step(grid: str | float | None) -> float | None:
         if grid == "auto":
             return 0.0
         raise ValueError(f"grid must be 'auto' or a step, not {grid!r}")
+    if isinstance(grid, (bool, np.bool_)) or not isinstance(grid, (int, float, np.integer, np.floating)):
+        raise TypeError(f"grid must be 'auto' or a step, not {grid!r}")
     step = float(grid)
     if not 0 < step < np.inf:
         raise ValueError(f"grid must be 'auto' or a positive step, not {grid!r}")
@@ -287,4 +291,9 @@ def _squares(radii: ArrayLike, count: int) -> NDArray[np.float64]:
     if (array < 0).any():
         row = int(np.argmax(array < 0))
         raise ValueError(f"radii: point {row} has the radius {array[row]}, which is negative")
-    return array * array
+    with np.errstate(over="ignore"):
+        squares: NDArray[np.float64] = array * array
+    if not np.isfinite(squares).all():
+        row = int(np.argmin(np.isfinite(squares)))
+        raise ValueError(f"radii: point {row} has the radius {array[row]}, the square of which is beyond the range of float64")
+    return squares

@@ -91,11 +91,15 @@ class Voronoi:
     ) -> None:
         """Makes the diagram of points."""
         if box is not None:
+            if furthest_site or merge is not None:
+                raise ValueError("furthest_site and merge are for diagrams without a box: leave them out, or box=")
             self.in_box = Periodic(points, box, periodic, radii, grid, origin)
             self.ndim, self.npoints, self.furthest_site = self.in_box.ndim, self.in_box.npoints, False
+            if self.ndim == 2:
+                raise NotImplementedError("cells in a box are for points of space; Periodic triangulates those of the plane")
             return
-        if not (radii is None and grid is None and origin is None):
-            raise ValueError("radii, grid and origin are for points in a box: give box=, or see PowerDiagram")
+        if not (radii is None and grid is None and origin is None and periodic is True):
+            raise ValueError("periodic, radii, grid and origin are for points in a box: give box=, or see PowerDiagram")
         self._merge = as_merge(merge)
         usual = "" if as_flag(incremental, "incremental") else "Qz"
         self._has_empty = parse(qhull_options, usual).at_infinity
@@ -106,13 +110,16 @@ class Voronoi:
         """Adds points, whose indices follow those there are, and makes the diagram of all. `restart` is for those who come
         from SciPy: it triangulates anew, which gives the same. RuntimeError after `close`. After Ctrl-C no point was added."""
         made = copy(self)
+        if "in_box" in self.__dict__:
+            raise NotImplementedError("no points can be added to cells in a box: make them anew")
         made._tri.add_points(points, restart)
         made._make()
         self.__dict__ = made.__dict__
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""
-        self._tri.close()
+        if "in_box" not in self.__dict__:
+            self._tri.close()
 
     def _make(self) -> None:
         tri = self._tri
@@ -158,11 +165,9 @@ class Voronoi:
         """Names what there is in a box alone, and what there is not."""
         if name in {"in_box", "volumes", "areas", "centroids", "nlist"}:
             raise AttributeError(f"{name} is for cells in a box: give box=")
-        if (
-            name in {"_tri", "vertices", "ridge_points", "ridge_indptr", "ridge_indices", "point_region"}
-            and "in_box" in self.__dict__
-        ):
-            raise AttributeError(f"cells in a box have no {name.strip('_')}: see in_box, its nlist and polyhedra()")
+        made = {"vertices", "ridge_points", "ridge_indptr", "ridge_indices", "point_region"}
+        if "in_box" in self.__dict__ and (name in made or hasattr(type(self), name)):
+            raise AttributeError(f"cells in a box have no {name}: see in_box, its nlist and polyhedra()")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @cached_property
@@ -194,12 +199,12 @@ class Voronoi:
     @property
     def min_bound(self) -> NDArray[np.float64]:
         """The least coordinate of the points along each axis."""
-        return self._tri.min_bound
+        return self.points.min(axis=0) if "in_box" in self.__dict__ else self._tri.min_bound
 
     @property
     def max_bound(self) -> NDArray[np.float64]:
         """The largest coordinate of the points along each axis."""
-        return self._tri.max_bound
+        return self.points.max(axis=0) if "in_box" in self.__dict__ else self._tri.max_bound
 
     @property
     def points(self) -> NDArray[np.float64]:

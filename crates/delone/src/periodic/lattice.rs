@@ -2,7 +2,7 @@
 
 use std::ops::{AddAssign, Mul};
 
-use super::reduced::{Basis, Reduced};
+use super::reduced::{Basis, Reduced, check_length};
 use crate::decimal::{DecimalGrid, MOST_EXACT};
 use crate::error::{Error, LatticeProblem};
 
@@ -118,7 +118,14 @@ impl<const D: usize> Lattice<D> {
     /// The lattice on the grid of some points.
     pub(super) fn prepare(&self, points: &[[f64; D]]) -> Result<Prepared<D>, Error> {
         let decimal = self.decimal(points);
-        let axes = self.axes.map(|axis| axis.map(|x| decimal.map_or(x, |grid| grid.index(x))));
+        // Walls stay where they are.
+        let axes = std::array::from_fn(|axis| {
+            let on_grid =
+                |grid: DecimalGrid, x| if self.periodic[axis] { grid.index(x) } else { grid.in_steps(x) };
+            self.axes[axis].map(|x| decimal.map_or(x, |grid| on_grid(grid, x)))
+        });
+        // In steps of a decimal grid axes that do not repeat may be out of range, too, and volumes with them.
+        axes.iter().enumerate().try_for_each(|(axis, vector)| check_length(axis, vector))?;
         let basis = Basis::new(axes, self.periodic)?;
         let beside = basis.beside(points.iter().map(|p| p.map(|x| decimal.map_or(x, |grid| grid.index(x)))));
         let mut steps = [None; D];
@@ -134,9 +141,16 @@ impl<const D: usize> Lattice<D> {
         let rounded = axes.map(|axis| std::array::from_fn(|k| in_steps(axis[k], steps[k]).unwrap_or(0)));
         let reduced =
             basis.on_grid(&rounded, &steps).map_err(|error| far_away(points, &beside).unwrap_or(error))?;
-        let origin = self.origin.map(|x| decimal.map_or(x, |grid| grid.index(x)));
+        let origin = self.origin.map(|x| decimal.map_or(x, |grid| grid.in_steps(x)));
         let walled = std::array::from_fn(|axis| (!self.periodic[axis]).then_some(axes[axis]));
-        Ok(Prepared { decimal, steps, axes: rounded, reduced, origin, walled })
+        let mut lattice = Prepared { decimal, steps, axes: rounded, reduced, origin, walled, rounding: 0.0 };
+        for axis in (0..D).filter(|&axis| self.periodic[axis]) {
+            for k in 0..D {
+                let taken = steps[k].map_or(0.0, |step| rounded[axis][k] as f64 * step);
+                lattice.rounding = lattice.rounding.max((lattice.length(taken) - self.axes[axis][k]).abs());
+            }
+        }
+        Ok(lattice)
     }
 }
 
@@ -184,6 +198,8 @@ pub(super) struct Prepared<const D: usize> {
     pub origin: [f64; D],
     /// The axes along which the box does not repeat, in units of places.
     pub walled: [Option<[f64; D]>; D],
+    /// By how much the axes along which it repeats were rounded at most, in coordinate units.
+    pub rounding: f64,
 }
 
 /// A site moved into the cell of the reduced basis at the origin.

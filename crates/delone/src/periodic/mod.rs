@@ -148,7 +148,7 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
         };
         let all = points.iter().enumerate().map(wrap).collect::<Result<Vec<_>, _>>()?;
         let (wrapped, roundings): (Vec<_>, Vec<f64>) = all.into_iter().unzip();
-        let rounding = roundings.into_iter().fold(0.0, f64::max);
+        let rounding = roundings.into_iter().fold(lattice.rounding, f64::max);
         let places: Vec<[f64; D]> = wrapped.iter().map(|at| at.place).collect();
         let weights: Vec<f64> = weights.iter().map(|&w| lattice.weight(w)).collect();
         let quotient = triangulate::<T, D, N>(&lattice, &places, &weights)?;
@@ -260,8 +260,8 @@ impl<T: PeriodicKind<D, N>, const D: usize, const N: usize> Periodic<T, D, N> {
         self.lattice.far(&place, std::array::from_fn(|k| offset[k] + from[k]))
     }
 
-    /// By how much a coordinate of a point was rounded at most, so that copies are exact, in coordinate units: zero for integers and other
-    /// numbers with few bits.
+    /// By how much a coordinate of a point, or of an axis along which it repeats, was rounded at most, so that copies are exact, in coordinate
+    /// units: zero for integers and other numbers with few bits.
     pub fn rounding(&self) -> f64 {
         self.rounding
     }

@@ -51,22 +51,31 @@ fn dot<const D: usize>(u: &[f64; D], v: &[f64; D]) -> f64 {
     (0..D).fold(0.0, |sum, k| sum + u[k] * v[k])
 }
 
+/// Whether an axis of a box has a length in the range.
+///
+/// # Errors
+/// [`Error::Lattice`] with the axis.
+pub(super) fn check_length<const D: usize>(axis: usize, vector: &[f64; D]) -> Result<(), Error> {
+    let problem = |problem| Err(Error::Lattice { axis, problem });
+    if vector.iter().any(|x| !x.is_finite()) {
+        return problem(LatticeProblem::NotFinite);
+    }
+    let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    if largest == 0.0 {
+        return problem(LatticeProblem::Dependent);
+    }
+    if !LENGTHS.contains(&largest) {
+        return problem(LatticeProblem::Range);
+    }
+    Ok(())
+}
+
 impl<const D: usize> Basis<D> {
     /// Short vectors that give the same lattice as those axes along which it repeats.
     pub(super) fn new(axes: [[f64; D]; D], periodic: [bool; D]) -> Result<Self, Error> {
         let mut vectors = Vec::new();
         for axis in (0..D).filter(|&axis| periodic[axis]) {
-            let problem = |problem| Err(Error::Lattice { axis, problem });
-            if axes[axis].iter().any(|x| !x.is_finite()) {
-                return problem(LatticeProblem::NotFinite);
-            }
-            let largest = axes[axis].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            if largest == 0.0 {
-                return problem(LatticeProblem::Dependent);
-            }
-            if !LENGTHS.contains(&largest) {
-                return problem(LatticeProblem::Range);
-            }
+            check_length(axis, &axes[axis])?;
             vectors.push((axes[axis], std::array::from_fn(|k| i64::from(k == axis))));
         }
         reduce(&mut vectors);

@@ -4,6 +4,7 @@ pub(crate) mod alphas;
 pub(crate) mod broken;
 pub(crate) mod builds;
 pub(crate) mod cells;
+pub(crate) mod cells3;
 pub(crate) mod files;
 pub(crate) mod graph_lives;
 pub(crate) mod graphs;

@@ -5,5 +5,6 @@
 
 pub(crate) mod delaunay;
 pub(crate) mod exact;
+pub(crate) mod half_spaces;
 pub(crate) mod hull;
 pub(crate) mod rings;

@@ -17,6 +17,16 @@ fn less(p: Point, q: Point) -> Point {
     [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
+/// From one point to another, scaled: also where the way between them is beyond the range of `f64`.
+#[inline]
+fn way(from: Point, to: Point, scale: f64) -> Point {
+    let way = less(to, from);
+    if scale == 1.0 || way.iter().all(|x| x.is_finite()) {
+        return way.map(|x| x * scale);
+    }
+    less(to.map(|x| x * scale), from.map(|x| x * scale))
+}
+
 #[inline]
 fn dot(p: Point, q: Point) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
@@ -58,7 +68,7 @@ fn fan(
     scale: f64,
     mut each: impl FnMut([Point; 3], f64),
 ) -> Point {
-    let mut seen = face.map(|p| less(p, from).map(|x| x * scale));
+    let mut seen = face.map(|p| way(from, p, scale));
     let (Some(a), Some(mut b)) = (seen.next(), seen.next()) else { return [0.0; 3] };
     let (mut side, mut normal) = (less(b, a), [0.0; 3]);
     for c in seen {
@@ -122,12 +132,16 @@ pub(in crate::space) fn of<F: Iterator<Item = Point>>(faces: impl Iterator<Item 
     }
     let Sums { six_volumes, moment, two_areas, low, high } = sums;
     // A sliver has a volume of roundings: its center is among its corners all the same.
-    let center =
-        || [0, 1, 2].map(|k| (from[k] + moment[k] / six_volumes / 4.0 / scale).clamp(low[k], high[k]));
+    let center = |k: usize| {
+        let way = moment[k] / six_volumes / 4.0;
+        let plain = way / scale;
+        let center = if plain.is_finite() { from[k] + plain } else { (from[k] * scale + way) / scale };
+        center.clamp(low[k], high[k])
+    };
     Measures {
         volume: (six_volumes / 6.0 / scale / scale / scale).max(0.0),
         area: two_areas / 2.0 / scale / scale,
-        centroid: (six_volumes > 0.0).then(center),
+        centroid: (six_volumes > 0.0).then(|| [0, 1, 2].map(center)),
     }
 }
 
@@ -181,6 +195,14 @@ mod tests {
                 assert_eq!(direction(area_vector(base.into_iter()).0), Some([0.0, 0.0, -1.0]));
             }
         }
+        // The way between two corners is beyond all numbers.
+        let corner = |p: [f64; 3]| p.map(|x| x * 2f64.powi(1023));
+        let [o, x, y, z] = [[-1.0; 3], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(corner);
+        let faces = [[o, y, x], [o, x, z], [o, z, y], [x, y, z]];
+        let Measures { volume, area, centroid } = of(faces.iter().map(|face| face.iter().copied()));
+        assert_eq!((volume, area), (f64::INFINITY, f64::INFINITY));
+        assert_eq!(centroid, Some(corner([-0.5; 3])));
+        assert_eq!(direction(area_vector([o, y, x].into_iter()).0), Some([0.0, 0.0, -1.0]));
         assert_eq!(of(std::iter::empty::<std::array::IntoIter<[f64; 3], 3>>()), Measures::default());
     }
 }
