@@ -221,7 +221,7 @@ def test_budgets():
     with pytest.raises(ValueError, match="min_angle is 60"):
         delone.mesh(UNIT, min_angle=60)
     assert delone.mesh(UNIT, min_angle=35, max_area=0.1).report.smallest_angle >= 35
-    assert set(delone.mesh(UNIT, min_angle=50, max_area=0.01).report.reasons) == {"budget"}
+    assert "budget" in delone.mesh(UNIT, min_angle=50, max_area=0.01).report.reasons
     points, segments = planar(1)
     steep = delone.mesh(points, segments, min_angle=35, max_vertices=500)
     assert len(steep.points) <= len(points) + 500

@@ -13,6 +13,7 @@ SQUARE = {
     "segments": [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]],
     "holes": [[2.0, 2.0]],
 }
+UNIT = {"vertices": [[0, 0], [1, 0], [1, 1], [0, 1]], "segments": [[0, 1], [1, 2], [2, 3], [3, 0]]}
 FULL = SQUARE | {
     "regions": [[0.5, 0.5, 7, 0.3]],
     "vertex_markers": [[0], [1], [2], [3], [4], [5], [6]],
@@ -243,10 +244,9 @@ def test_edges_and_segments_run_as_in_the_package(switches):
 
 @pytest.mark.parametrize("markers", [(0, 7), (7, 0), (5, 7), (0, 0)])
 def test_the_first_marker_of_a_segment_given_twice(markers):
-    tri = dict(SQUARE, segments=[[0, 1], [1, 2], [2, 3], [3, 0], [1, 0]], segment_markers=[markers[0], 0, 0, 0, markers[1]])
+    tri = UNIT | {"segments": [*UNIT["segments"], [1, 0]], "segment_markers": [markers[0], 0, 0, 0, markers[1]]}
     made, theirs = delone.triangle.triangulate(tri, "pe"), original(tri, ["pe"])[0]
-    for key in ("vertex_markers",):
-        assert (made[key] == theirs[key]).all()
+    assert (made["vertex_markers"] == theirs["vertex_markers"]).all()
     at = [
         {tuple(sorted(s)): m for s, m in zip(of["segments"].tolist(), of["segment_markers"].ravel().tolist(), strict=True)}
         for of in (made, theirs)
@@ -257,17 +257,27 @@ def test_the_first_marker_of_a_segment_given_twice(markers):
 def test_vertices_in_holes_have_the_markers_of_their_segments():
     corners = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2], [1, 2], [1.5, 1.4], [1.6, 1.6]]
     sides = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [8, 9]]
-    tri = {"vertices": corners, "segments": sides, "segment_markers": range(2, 11), "holes": [[1.2, 1.5]]}
-    tri["segment_markers"] = list(tri["segment_markers"])
-    made, theirs = delone.triangle.triangulate(tri, "p"), original(tri, ["p"])[0]
-    assert made["vertex_markers"].ravel().tolist() == theirs["vertex_markers"].ravel().tolist() == [2, 2, 3, 4, 6, 6, 7, 8, 10, 10]
+    tri = {"vertices": corners, "segments": sides, "segment_markers": list(range(2, 11)), "holes": [[1.2, 1.5]]}
+    for made in (delone.triangle.triangulate(tri, "p"), original(tri, ["p"])[0]):
+        assert made["vertex_markers"].ravel().tolist() == [2, 2, 3, 4, 6, 6, 7, 8, 10, 10]
 
 
 def test_more_than_34_degrees_are_tried():
-    made = delone.triangle.triangulate(dict(SQUARE), "pzeAa0.1q34.3")
-    assert len(made["vertices"]) <= 20
+    made = delone.triangle.triangulate(UNIT, "pzeAa0.1q34.3")
+    assert len(made["vertices"]) <= 20  # Triangle makes 13
     with pytest.warns(UserWarning, match="55 degrees"):
-        delone.triangle.triangulate(dict(SQUARE), "pq55a0.01")
+        delone.triangle.triangulate(UNIT, "pq55a0.01")
+
+
+@pytest.mark.parametrize("switches", ["r", "rp", "ra0.01", "rq30"])
+def test_materials_keep_their_areas_where_a_mesh_is_refined(switches):
+    tri = {"vertices": [[0, 0], [2, -0.6], [4, 0], [2.5, 0.5]], "triangles": [[0, 1, 2], [0, 2, 3]]}
+    tri["triangle_attributes"] = [[1.0], [2.0]]
+    made = delone.triangle.triangulate(tri, switches)
+    attributes = made["triangle_attributes"].ravel()
+    assert np.allclose([areas(made)[attributes == k].sum() for k in (1, 2)], [1.2, 1.0])
+    if "p" in switches:
+        assert {tuple(sorted(s)) for s in made["segments"].tolist()} == border_of(made["triangles"]), "and no other"
 
 
 def test_the_others():

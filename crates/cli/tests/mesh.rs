@@ -340,6 +340,23 @@ fn sizes_come_from_a_file() {
     place.fail("mesh square.poly --size-columns x,y,edge -o m.vtu", 2, "--size");
 }
 
+/// Sides between triangles of other attributes are segments: no new triangle has a part of both.
+#[test]
+fn materials_keep_their_areas_where_a_mesh_is_refined() {
+    let place = Place::new();
+    place.file("a.node", "4 2 0 0\n1 0 0\n2 2 -0.6\n3 4 0\n4 2.5 0.5\n");
+    place.file("a.ele", "2 3 1\n1 1 2 3 1\n2 1 3 4 2\n");
+    for options in ["--min-angle 0", "--min-angle 30 --max-area 0.01"] {
+        place.succeed(&format!("-q mesh a.node --refine a.ele {options} --check -o b.node -o b.ele"));
+        let made = mesh(&place, "b");
+        for (material, area) in [(1.0, 1.2), (2.0, 1.0)] {
+            let of = made.triangles.iter().zip(&made.regions).filter(|(_, region)| **region == material);
+            let sum: f64 = of.map(|(&t, _)| made.area_of(t)).sum();
+            assert!((sum - area).abs() < 1e-12, "{options}: {sum} of material {material}");
+        }
+    }
+}
+
 #[test]
 fn a_mesh_is_refined_again() {
     let place = Place::new();

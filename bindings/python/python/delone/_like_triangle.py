@@ -26,6 +26,9 @@ _KEYS = (
     *("neighbors", "edges", "edge_markers"),
 )
 
+#: The origin of a segment that nobody gave, and which results do not have: an edge between materials.
+_HIDDEN = -2
+
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
@@ -146,9 +149,12 @@ def refined(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
 
 
 def _refined_again(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
-    """What is inside is what an odd number of borders is around: of those that are inside there are two each."""
+    """What is inside is what an odd number of borders is around: of those that are inside there are two each.
+
+    Edges between triangles of other attributes are segments too, so no new triangle has a part of both.
+    """
     old = Old(given)
-    keys, counts = np.unique(_keys(_edges(given.triangles)), return_counts=True)
+    keys, sides, counts = np.unique(_keys(_edges(given.triangles)), return_inverse=True, return_counts=True)
     border = _pairs(keys[counts % 2 == 1])
     own = np.sort(given.segments, axis=1)
     is_border = _among(own, border)
@@ -157,14 +163,29 @@ def _refined_again(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
     on_border = np.flatnonzero(is_border)
     _, firsts = np.unique(_keys(own[on_border]), return_index=True)
     on_border = on_border[np.sort(firsts)] if len(on_border) else on_border
-    segments = np.concatenate([own[on_border], own[twice], own[twice], missing])
-    origins = np.concatenate([on_border, twice, twice, np.full(len(missing), -1)]).astype(np.int64)
+    between = _pairs(keys[_between(sides, counts, given.triangle_attributes)])
+    between = between[~_among(between, own)]
+    segments = np.concatenate([own[on_border], own[twice], own[twice], missing, between, between])
+    unknown = np.repeat([-1, _HIDDEN], [len(missing), 2 * len(between)])
+    origins = np.concatenate([on_border, twice, twice, unknown]).astype(np.int64)
     wishes = _wishes(switches, "even-odd")
     if given.triangle_areas is not None:
         wishes["of"] = old.triangulation._core
         wishes["max_areas"] = np.append(given.triangle_areas, np.inf)[old.rows]
     made = Mesh._make((given.vertices, np.ascontiguousarray(segments), True), wishes, np.empty(0))
     return made, np.append(origins, -1)[made.segment_origin], old
+
+
+def _between(sides: Ints, counts: Ints, attributes: Floats) -> NDArray[np.bool_]:
+    """Which edges are between two triangles of other attributes; `sides` are the edges of each triangle, three a row."""
+    if not attributes.size:
+        return np.zeros(len(counts), bool)
+    _, names = np.unique(attributes, axis=0, return_inverse=True)
+    of_sides = np.repeat(names.ravel(), 3)
+    least, largest = np.full(len(counts), len(names)), np.full(len(counts), -1)
+    np.minimum.at(least, sides.ravel(), of_sides)
+    np.maximum.at(largest, sides.ravel(), of_sides)
+    return np.asarray((counts == 2) & (least < largest))
 
 
 def _wishes(switches: Switches, fill: str) -> Wishes:
@@ -307,7 +328,8 @@ class Result:
         at_edges = np.zeros(len(edges), np.int64)
         if is_wanted:
             at_edges[np.searchsorted(keys, _keys(np.sort(self.mesh.segments, axis=1)))] = at_segments
-        segments, edges_of = self._segments(), edges
+        shown = self.origin != _HIDDEN
+        segments, at_segments, edges_of = self._segments()[shown], at_segments[shown], edges
         if s.jettison:
             used = np.zeros(len(points), bool)
             used[corners] = True
@@ -348,7 +370,7 @@ class Result:
 
     def _segment_markers(self) -> Ints:
         """Those that were given; of others 1 on the border."""
-        markers = np.append(self._given_markers, 0)[self.origin]
+        markers = np.append(self._given_markers, [0, 0])[self.origin]
         is_border = _among(np.sort(self.mesh.segments, axis=1), np.sort(self._border, axis=1))
         return np.where((markers == 0) & is_border, 1, markers)
 
@@ -367,7 +389,7 @@ class Result:
         markers = np.zeros(len(self.mesh.points), np.int64)
         markers[: len(self.given.vertices)] = self.given.vertex_markers
         # Segments that were given come first; the last one that is written stays.
-        is_given = np.append(self._given_markers, 0)[self.origin] != 0
+        is_given = np.append(self._given_markers, [0, 0])[self.origin] != 0
         order = np.lexsort([self.origin, ~is_given])[::-1]
         order = order[at_segments[order] != 0]
         first = np.zeros_like(markers)

@@ -110,9 +110,9 @@ def mesh(
         A point in each region, an attribute for its triangles, which is the index of the region if there is none, and the largest
         area of its triangles; NaN and what is not positive is no bound.
     min_angle : float
-        No angle is to be smaller, in degrees: from 0, which asks for nothing, to less than 60. Up to 28.6 is proven where segments
-        meet at 60 degrees or more, and 34 is reached in practice. More is tried, with at most twice the points of 34 degrees if
-        `max_vertices` says nothing else; `report.left` tells where it failed.
+        No angle is to be smaller, in degrees: from 0, which asks for nothing, to less than 60. Up to 28.6 is proven where
+        segments meet at 60 degrees or more, and 34 is reached in practice. More is tried, with at most twice the points of 34
+        degrees if `max_vertices` says nothing else; `report.left` tells where it failed.
     max_area : float, optional
         No triangle is to be larger.
     max_edge : float, optional

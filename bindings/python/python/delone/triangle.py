@@ -31,11 +31,12 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
         `segment_markers` (m, 1), `holes` (h, 2), `regions` (r, 4): x, y, an attribute, a largest area; for the switch r
         `triangles` (t, 3), `triangle_attributes` (t, k), `triangle_max_area` (t, 1). Other arrays of results are ignored.
     opts : str
-        Switches. p: with segments, holes and regions. r: refines `triangles`. q: no angle below 20 degrees, or below the number
-        that follows; more than 34 are tried, with a warning where they are not reached. a: no area above the number that follows; without one those of `regions`, or with r `triangle_max_area`.
-        A: attributes of regions. c: all of the hull. D: conforming Delaunay. Y: no new vertices on the border, YY: on no segment.
-        S: with so many new vertices at most. O: without holes. j: without vertices that no triangle has. o2: with vertices in
-        the middles of edges. e, n: with edges, neighbors. B, N, E, P: without markers, vertices, triangles, segments.
+        Switches. p: with segments, holes and regions. r: refines `triangles`. q: no angle below 20 degrees, or below the
+        number that follows; more than 34 are tried, with a warning where they are not reached. a: no area above the number
+        that follows; without one those of `regions`, or with r `triangle_max_area`. A: attributes of regions. c: all of the
+        hull. D: conforming Delaunay. Y: no new vertices on the border, YY: on no segment. S: with so many new vertices at
+        most. O: without holes. j: without vertices that no triangle has. o2: with vertices in the middles of edges. e, n:
+        with edges, neighbors. B, N, E, P: without markers, vertices, triangles, segments.
         z, v, g, X, I, Q, V, h, i, F, l, s and C change nothing here.
 
     Returns
@@ -61,9 +62,10 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
     switches = parse(opts)
     given = Given.of(tri, switches)
     result = Result(given, switches, *refined(given, switches))
-    if switches.min_angle > 34 and switches.max_vertices is None and (left := result.mesh.report.reasons.count("budget")):
+    left = sum(reason in ("budget", "cascade") for reason in result.mesh.report.reasons)
+    if left and switches.min_angle > 34 and switches.max_vertices is None:
         # Triangle would not end.
-        words = f"{left} triangles have an angle of less than {switches.min_angle:g} degrees: up to 34 are reached, more are tried"
+        words = f"{left} triangles have an angle of less than {switches.min_angle:g} degrees; up to 34 are reached"
         warnings.warn(words, stacklevel=2)
     return result.arrays()
 

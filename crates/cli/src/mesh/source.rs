@@ -136,7 +136,8 @@ impl Sources {
         Ok(Material { graph, fill, again, besides })
     }
 
-    /// Reads triangles that are refined again. The border of what they cover becomes segments, and the only border.
+    /// Reads triangles that are refined again. The border of what they cover becomes segments, and the only border; so do the sides
+    /// between triangles of other attributes, so that no new triangle has a part of both.
     fn again(&self, path: &Path, graph: &mut Graph, quiet: bool) -> Result<Again, Failure> {
         let rows = files::simplices(path, quiet, delone_io::read_triangles)?;
         let attributes = files::simplices(path, quiet, delone_io::read_triangle_attributes)?;
@@ -174,18 +175,38 @@ impl Sources {
             }
         };
         let elements = Elements::of(path, &graph.cloud.xy, triangles)?;
-        let mut sides: Vec<[usize; 2]> = Vec::with_capacity(3 * triangles.len());
-        for &[a, b, c] in triangles {
-            sides.extend([[a, b], [b, c], [c, a]].map(|[from, to]| [from.min(to), from.max(to)]));
+        let mut sides: Vec<([usize; 2], usize)> = Vec::with_capacity(3 * triangles.len());
+        for (row, &[a, b, c]) in triangles.iter().enumerate() {
+            sides.extend([[a, b], [b, c], [c, a]].map(|[from, to]| ([from.min(to), from.max(to)], row)));
         }
         sides.sort_unstable();
-        let border: Vec<[usize; 2]> = sides
-            .chunk_by(|one, other| one == other)
-            .filter(|same| same.len() == 1)
-            .map(|same| same[0])
-            .collect();
+        let (mut border, mut between) = (Vec::new(), Vec::new());
+        for same in sides.chunk_by(|one, other| one.0 == other.0) {
+            match same {
+                [(side, _)] => border.push(*side),
+                [(side, one), (_, other)] if attributes.row(*one) != attributes.row(*other) => {
+                    between.push(*side)
+                }
+                _ => {}
+            }
+        }
+        add_between(graph, &between);
         add_border(graph, &border);
         Ok(Again { elements, attributes, areas })
+    }
+}
+
+/// Makes these sides segments, if they are not.
+fn add_between(graph: &mut Graph, between: &[[usize; 2]]) {
+    let mut is_there = vec![false; between.len()];
+    for &[from, to] in &graph.segments {
+        if let Ok(at) = between.binary_search(&[from.min(to), from.max(to)]) {
+            is_there[at] = true;
+        }
+    }
+    graph.segments.extend(between.iter().zip(is_there).filter(|side| !side.1).map(|side| *side.0));
+    if let Some(markers) = &mut graph.markers {
+        markers.resize(graph.segments.len(), 0);
     }
 }
 
