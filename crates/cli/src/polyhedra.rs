@@ -7,7 +7,7 @@ use delone::{
     Bounds, Cells3, CellularKind, DecimalGrid, Delaunay3, Lattice3, Periodic, Periodic3, PeriodicRegular3,
     Region3,
 };
-use delone_io::{Cloud, Contents, Format, Polyhedra, write_polyhedra};
+use delone_io::{Cloud, Contents, Format, Polyhedra, UnitCell, write_polyhedra};
 
 use crate::args::{GridChoice, PeriodicBox, VoronoiArgs};
 use crate::clip::is_polygon;
@@ -20,10 +20,7 @@ use crate::weighted;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse_flat(args)?;
-    let mut lattice = match args.space.periodic {
-        Some(PeriodicBox::Axes(axes)) => Some(args.space.lattice(axes)?),
-        _ => None,
-    };
+    let mut lattice: Option<Lattice3> = args.space.of_numbers()?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs_of(&args.output, args.to, stats_path, &inputs, as_cells)?;
@@ -34,8 +31,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let (points, weights, about) = weighted::read::<Delaunay3>(&args.input, &args.weights, quiet)?;
     stats.phase("read");
     if args.space.periodic == Some(PeriodicBox::OfFile) {
-        lattice = Some(args.space.lattice(box_of(&about, args)?)?);
+        lattice = Some(args.space.of_cell(&box_of(&about, args)?, quiet)?);
     }
+    args.space.compare(about.cell.as_ref(), quiet);
     let weights = args.weights.given().is_some().then_some(&weights[..]);
     let work = Work { args, points: &points, weights, about: &about, outputs: &outputs, quiet };
     match lattice {
@@ -71,21 +69,14 @@ fn refuse_flat(args: &VoronoiArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The axes of the box that the file tells.
-fn box_of(about: &Cloud, args: &VoronoiArgs) -> Result<[[f64; 3]; 3], Failure> {
-    let label = args.input.label();
-    let failed = |what: String, help: &str| Failure::new(format!("{}: {what}", label.display()), help);
-    match about.cell {
-        None => Err(failed(
-            "it tells no box".to_owned(),
+/// The box that the file tells.
+fn box_of(about: &Cloud, args: &VoronoiArgs) -> Result<UnitCell, Failure> {
+    about.cell.ok_or_else(|| {
+        Failure::new(
+            format!("{}: it tells no box", args.input.label().display()),
             "give the box as --periodic LX,LY,LZ, or a file that has one: lammpstrj, extxyz",
-        )),
-        Some(cell) if cell.periodic != [true; 3] => Err(failed(
-            cell.to_string(),
-            "give a box that repeats along all axes as --periodic LX,LY,LZ: cells of others are not bounded, and not made yet",
-        )),
-        Some(cell) => Ok(cell.axes),
-    }
+        )
+    })
 }
 
 /// The format of a file of cells: of JSON that of its own, unless it is said to be GeoJSON.
@@ -224,7 +215,14 @@ impl<'a> Work<'a> {
         let cells = made.cells().map_err(|error| self.failed(&error))?;
         drop(phase);
         stats.phase("cells");
-        self.write(Polyhedra::of_periodic(self.points, &cells), stats)
+        let cells = Polyhedra::of_periodic(self.points, &cells);
+        let beyond = made.vertices().count() - cells.count();
+        if beyond > 0 {
+            let text = if beyond == 1 { "cell is" } else { "cells are" };
+            note(self.quiet, format_args!("{beyond} {text} beyond the walls of the box, and empty"));
+        }
+        stats.set("beyond", beyond);
+        self.write(cells, stats)
     }
 
     fn write(&self, mut cells: Polyhedra<'a>, stats: &mut Stats) -> Result<(), Failure> {
