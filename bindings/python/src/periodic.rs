@@ -225,7 +225,7 @@ fn edges<'py, T: PeriodicKind<D, N> + 'static, const D: usize, const N: usize>(
     Ok((table(py, 2, pairs.into_flattened())?, table(py, D, offsets.into_flattened())?))
 }
 
-fn cells<'py, T: CellularKind + 'static>(
+fn cells<'py, T: CellularKind<3, 4> + 'static>(
     py: Python<'py>,
     t: &Arc<Periodic<T, 3, 4>>,
 ) -> PyResult<Cells<'py>> {
@@ -286,7 +286,7 @@ fn cells<'py, T: CellularKind + 'static>(
     ))
 }
 
-fn polyhedra<'py, T: CellularKind + 'static>(
+fn polyhedra<'py, T: CellularKind<3, 4> + 'static>(
     py: Python<'py>,
     t: &Arc<Periodic<T, 3, 4>>,
 ) -> PyResult<Polyhedra<'py>> {

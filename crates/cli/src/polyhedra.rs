@@ -187,7 +187,11 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn repeated<T: CellularKind>(&self, made: &Periodic<T, 3, 4>, stats: &mut Stats) -> Result<(), Failure> {
+    fn repeated<T: CellularKind<3, 4>>(
+        &self,
+        made: &Periodic<T, 3, 4>,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
         stats.phase("build");
         let (points, duplicates) = (made.ids_given(), made.duplicates().count());
         if duplicates > 0 {

@@ -103,7 +103,7 @@ impl<'a> Polyhedra<'a> {
     }
 
     /// The cells of points that repeat, each around its point.
-    pub fn of_periodic<T: CellularKind>(sites: &'a [[f64; 3]], cells: &PeriodicCells3<T>) -> Self {
+    pub fn of_periodic<T: CellularKind<3, 4>>(sites: &'a [[f64; 3]], cells: &PeriodicCells3<T>) -> Self {
         let mut all = Self::new(sites);
         for site in 0..sites.len() {
             let cell = cells.cell(VertexId::new(site));

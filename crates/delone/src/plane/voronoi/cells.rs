@@ -48,6 +48,12 @@ impl Cells2 {
         Cell2 { ends, corners: &self.corners, vertices: &self.vertices }
     }
 
+    /// The index of the first corner of each ring of a cell, among those of all.
+    pub(crate) fn ring_starts(&self, site: VertexId) -> impl Iterator<Item = usize> + '_ {
+        let [first, count] = self.sites.get(site.index()).copied().unwrap_or_default();
+        self.starts[first as usize..][..count as usize].iter().map(|&start| start as usize)
+    }
+
     /// The rings of a cell: none for an id that is no vertex, and for a cell outside of the region.
     pub fn rings(&self, site: VertexId) -> impl Iterator<Item = Ring<'_>> + Clone {
         self.cell(site).rings()
