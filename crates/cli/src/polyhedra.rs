@@ -7,20 +7,21 @@ use delone::{
     Bounds, Cells3, CellularKind, DecimalGrid, Delaunay3, Lattice3, Periodic, Periodic3, PeriodicRegular3,
     Region3,
 };
-use delone_io::{Cloud, Contents, Format, Polyhedra, UnitCell, write_polyhedra};
+use delone_io::{Cloud, Contents, Format, Polyhedra, write_polyhedra};
 
-use crate::args::{GridChoice, PeriodicBox, VoronoiArgs};
+use crate::args::{GridChoice, VoronoiArgs};
 use crate::clip::is_polygon;
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
+use crate::repeated::{self, NO_GRID, tell_grid};
 use crate::room::{self, Room};
 use crate::stats::Stats;
 use crate::weighted;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse_flat(args)?;
-    let mut lattice: Option<Lattice3> = args.space.of_numbers()?;
+    let of_numbers: Option<Lattice3> = args.space.of_numbers()?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs_of(&args.output, args.to, stats_path, &inputs, as_cells)?;
@@ -30,10 +31,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let (points, weights, about) = weighted::read::<Delaunay3>(&args.input, &args.weights, quiet)?;
     stats.phase("read");
-    if args.space.periodic == Some(PeriodicBox::OfFile) {
-        lattice = Some(args.space.of_cell(&box_of(&about, args)?, quiet)?);
-    }
-    args.space.compare(about.cell.as_ref(), quiet);
+    let lattice = repeated::lattice(args, of_numbers, &about, quiet)?;
     let weights = args.weights.given().is_some().then_some(&weights[..]);
     let work = Work { args, points: &points, weights, about: &about, outputs: &outputs, quiet };
     match lattice {
@@ -67,16 +65,6 @@ fn refuse_flat(args: &VoronoiArgs) -> Result<(), Failure> {
         ));
     }
     Ok(())
-}
-
-/// The box that the file tells.
-fn box_of(about: &Cloud, args: &VoronoiArgs) -> Result<UnitCell, Failure> {
-    about.cell.ok_or_else(|| {
-        Failure::new(
-            format!("{}: it tells no box", args.input.label().display()),
-            "give the box as --periodic LX,LY,LZ, or a file that has one: lammpstrj, extxyz",
-        )
-    })
 }
 
 /// The format of a file of cells: of JSON that of its own, unless it is said to be GeoJSON.
@@ -193,39 +181,13 @@ impl<'a> Work<'a> {
         stats: &mut Stats,
     ) -> Result<(), Failure> {
         stats.phase("build");
-        let (points, duplicates) = (made.ids_given(), made.duplicates().count());
-        if duplicates > 0 {
-            let text = if duplicates == 1 {
-                "is a copy of another one, and has no cell"
-            } else {
-                "are copies of others, and have no cells"
-            };
-            note(self.quiet, format_args!("{duplicates} of {points} points {text}"));
-        }
-        let hidden = made.hidden().count();
-        weighted::tell_hidden(hidden, self.quiet);
-        match (self.args.space.grid, made.decimal_step()) {
-            (Some(_), Some(step)) => tell_grid(step, made.rounding(), stats, self.quiet),
-            (Some(_), None) => note(self.quiet, NO_GRID),
-            (None, _) => {}
-        }
-        stats.set("points", points);
-        stats.set("duplicates", duplicates);
-        stats.set("vertices", made.vertices().count());
-        stats.set("simplices", made.simplex_count());
-        stats.set("hidden", hidden);
-        stats.set("rounding", made.rounding());
+        repeated::tell(made, self.args, stats, self.quiet);
         let phase = Phase::start(self.quiet, "cutting cells");
         let cells = made.cells().map_err(|error| self.failed(&error))?;
         drop(phase);
         stats.phase("cells");
         let cells = Polyhedra::of_periodic(self.points, &cells);
-        let beyond = made.vertices().count() - cells.count();
-        if beyond > 0 {
-            let text = if beyond == 1 { "cell is" } else { "cells are" };
-            note(self.quiet, format_args!("{beyond} {text} beyond the walls of the box, and empty"));
-        }
-        stats.set("beyond", beyond);
+        repeated::tell_beyond(made.vertices().count() - cells.count(), stats, self.quiet);
         self.write(cells, stats)
     }
 
@@ -240,18 +202,6 @@ impl<'a> Work<'a> {
         }
         Ok(())
     }
-}
-
-/// A note where no decimals are found.
-const NO_GRID: &str = "the coordinates are multiples of no power of ten: they are taken as they are";
-
-fn tell_grid(step: f64, moved: f64, stats: &mut Stats, quiet: bool) {
-    stats.set("grid", step);
-    stats.set("rounding", moved);
-    note(
-        quiet,
-        format_args!("coordinates are taken as multiples of {step:?}, and move by at most {moved:.1e}"),
-    );
 }
 
 /// The region to clip to, in steps of the grid if there is one.

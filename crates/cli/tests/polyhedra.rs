@@ -226,8 +226,7 @@ fn wrong_usage_is_named() {
     fail("--dim 3 -o c.svg", 2, "Voronoi cells in space are not written to svg files");
     fail("-o c.vtu", 2, "Voronoi cells are not written to vtu files");
     fail("--dim 3 -o c.vtu --wkt lines", 2, "--wkt is for outputs of well-known text");
-    fail("--periodic 1,1,1 -o c.csv", 2, "--periodic is for cells in space");
-    fail("--grid auto -o c.csv", 2, "--grid is for cells in space");
+    fail("--grid auto -o c.csv", 2, "--grid is for cells in space, or in boxes that repeat");
     for option in ["--order 2", "--relax 2", "--sites s.csv", "--areas equal", "--merge auto"] {
         let word = format!("{} is for cells in the plane", option.split(' ').next().expect("a word"));
         fail(&format!("--dim 3 -o c.vtu {option}"), 2, &word);

@@ -29,9 +29,11 @@ fn check<T: CellularKind<2, 3>>(
 ) -> BTreeMap<(usize, bool), (f64, f64)> {
     let cells = t.cells().expect("a box");
     let (mut sides, mut walls, mut sum) = (BTreeMap::new(), BTreeMap::new(), 0.0);
+    let kept = cells.to_cells();
     for site in (0..t.ids_given()).map(VertexId::new) {
         let cell = cells.cell(site);
         sum += cell.area();
+        assert!((kept.area(site) - cell.area()).abs() <= 1e-12 * area_of_box);
         let rings = cell.rings();
         let of_rings: f64 = rings.iter().map(|ring| area(ring)).sum();
         assert!((of_rings - cell.area()).abs() <= 1e-12 * area_of_box, "{site:?}");

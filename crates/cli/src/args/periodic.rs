@@ -1,4 +1,4 @@
-//! Arguments of cells in space: boxes that repeat, and decimal grids.
+//! Arguments of cells: boxes that repeat, and decimal grids.
 
 use clap::Args;
 use delone::{DecimalGrid, Grid, Lattice};
@@ -6,12 +6,12 @@ use delone_io::UnitCell;
 
 use crate::message::{Failure, note};
 
-/// Cells of space alone.
+/// Boxes that repeat, and grids.
 #[derive(Clone, Debug, Default, Args)]
-#[command(next_help_heading = "Space")]
+#[command(next_help_heading = "Boxes")]
 pub(crate) struct PeriodicArgs {
     /// The box repeats: its three sides LX,LY,LZ; or LX,LY,LZ,XY,XZ,YZ, with tilt factors as in LAMMPS; or the nine numbers of its axes, one axis after
-    /// the other; without numbers the box of the file (lammpstrj extxyz). Points may be outside of it. Nothing is clipped along axes that repeat.
+    /// the other; in the plane LX,LY, or LX,LY,XY, or four numbers; without numbers the box of the file (lammpstrj extxyz). Points may be outside of it. Nothing is clipped along axes that repeat.
     #[arg(long, value_name = "BOX", num_args = 0..=1, default_missing_value = "auto", value_parser = parse_box, allow_negative_numbers = true, conflicts_with_all = ["bounds", "clip"])]
     pub(crate) periodic: Option<PeriodicBox>,
     /// The axes along which the box repeats, by letters (`xy`) or a word for each axis (`1,1,0`, `T,T,F`, `p,p,f`); cells end at the walls of the box
@@ -60,12 +60,6 @@ pub(crate) enum GridChoice {
 }
 
 impl PeriodicArgs {
-    /// The option that is given, if one is.
-    pub(crate) fn option(&self) -> Option<&'static str> {
-        let periodic = self.periodic.as_ref().map(|_| "--periodic");
-        periodic.or(self.grid.map(|_| "--grid"))
-    }
-
     /// The box by its numbers, on the grid that is asked for; none if it is that of the file, or if there is none.
     ///
     /// # Errors

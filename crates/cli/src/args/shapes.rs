@@ -109,6 +109,7 @@ impl CameraArgs {
   delone voronoi shops.csv --areas customers -o districts.geojson
   delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
   delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
+  delone voronoi disks.csv --periodic 40,30 --radii r -o cells.geojson -o cells.svg
   delone voronoi slab.csv --dim 3 --periodic 20,20,35 --axes xy --origin 0,0,-5 -o cells.vtu
   delone voronoi dump.lammpstrj --dim 3 --periodic --radii radius -o cells.vtu
 

@@ -12,6 +12,7 @@ use super::walls::{Side, Walls};
 use super::{Image, Periodic, Wrapped};
 use crate::error::Error;
 use crate::ids::VertexId;
+use crate::plane::Cells2;
 use crate::space::{Across3, Cells3, Face3};
 
 /// The cells of a triangulation that repeats: convex polygons or polyhedra around the sites, which together with their copies tile the plane or
@@ -240,6 +241,15 @@ impl<'a, T: CellularKind<D, N>, const D: usize, const N: usize> PeriodicCell<'a,
     /// A length in coordinate units.
     fn length(self, length: f64) -> f64 {
         self.of.triangulation.lattice.length(length)
+    }
+}
+
+impl<T: CellularKind<2, 3>> PeriodicCells2<'_, T> {
+    /// The cells by site as clipped ones are kept, each around the point where that was given, and with vertices of its own. What
+    /// neighbors share may differ by rounding, where points were given in different periods.
+    pub fn to_cells(&self) -> Cells2 {
+        let sites = (0..self.triangulation.ids_given()).map(VertexId::new);
+        Cells2::of_rings(sites.map(|site| self.cell(site).rings()))
     }
 }
 

@@ -70,7 +70,11 @@ fn set<T: CellularKind<3, 4>>(t: &Periodic<T, 3, 4>, name: impl Fn(usize) -> usi
 }
 
 /// Whether no copy near the box has less power to a simplex than its corners have.
-fn judge_spheres<T: CellularKind<3, 4>>(t: &Periodic<T, 3, 4>, weights: &[f64], periodic: [bool; 3]) -> Judgement {
+fn judge_spheres<T: CellularKind<3, 4>>(
+    t: &Periodic<T, 3, 4>,
+    weights: &[f64],
+    periodic: [bool; 3],
+) -> Judgement {
     let twins: BTreeSet<VertexId> = t.duplicates().map(|twin| twin.0).collect();
     let sites: Vec<VertexId> = (0..weights.len()).map(VertexId::new).filter(|v| !twins.contains(v)).collect();
     for corners in t.simplices() {

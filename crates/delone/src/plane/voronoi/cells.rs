@@ -36,6 +36,20 @@ pub struct Ring<'a> {
 }
 
 impl Cells2 {
+    /// Cells by the rings of each, with vertices of their own.
+    pub(crate) fn of_rings(cells: impl Iterator<Item = Vec<Vec<[f64; 2]>>>) -> Self {
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for rings in cells {
+            all.sites.push([all.starts.len() - 1, rings.len()].map(|n| n as u32));
+            for ring in rings {
+                all.vertices.extend(ring);
+                all.starts.push(all.vertices.len() as u32);
+            }
+        }
+        all.corners = (0..all.vertices.len() as u32).collect();
+        all
+    }
+
     /// The rings of one after the other.
     pub(super) fn all(&self) -> Cell2<'_> {
         Cell2 { ends: &self.starts, corners: &self.corners, vertices: &self.vertices }
