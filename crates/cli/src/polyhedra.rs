@@ -27,6 +27,13 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs_of(&args.output, args.to, stats_path, &inputs, as_cells)?;
     files::check_formats(&outputs, &[Contents::Polyhedra])?;
     let outputs = args.wkt.of(outputs)?;
+    let has_neighbors = |format: Format| matches!(format, Format::Text | Format::Json | Format::Vtu);
+    if args.space.least().is_some() && !outputs.iter().any(|(_, format)| has_neighbors(*format)) {
+        return Err(Failure::usage(
+            "neighbors are counted, and no output has room for their numbers",
+            "write csv, json or vtu, or leave --min-area and --min-relative-area out",
+        ));
+    }
     files::keep_attributes(Contents::Polyhedra);
     let mut stats = Stats::start();
     let (points, weights, about) = weighted::read::<Delaunay3>(&args.input, &args.weights, quiet)?;
@@ -193,6 +200,7 @@ impl<'a> Work<'a> {
 
     fn write(&self, mut cells: Polyhedra<'a>, stats: &mut Stats) -> Result<(), Failure> {
         cells.crs = self.about.crs.as_ref();
+        cells.least = self.args.space.least();
         cells.features = files::are_attributes_kept().then_some(&self.about.features);
         stats.set("cells", cells.count());
         stats.set("volume", cells.volume());

@@ -26,10 +26,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     if args.dim.is_space() {
         return polyhedra::run(args, quiet);
     }
-    if args.space.periodic.is_none() && args.space.grid.is_some() {
-        let what = "--grid is for cells in space, or in boxes that repeat";
-        return Err(Failure::usage(what, "add --dim 3 or --periodic"));
-    }
+    args.space.refuse_in_plane()?;
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {

@@ -215,6 +215,49 @@ fn decimals_are_taken_at_their_word() {
     assert!(told.contains("move by at most 8.3e-2"), "{told}");
 }
 
+/// Hexagonal close packing: no decimals, but twelve neighbors of each.
+#[test]
+fn small_faces_are_no_neighbors() {
+    let place = Place::new();
+    let axes = [[1.0, 0.0, 0.0], [0.5, 0.75_f64.sqrt(), 0.0], [0.0, 0.0, (8.0_f64 / 3.0).sqrt()]];
+    let mut rows = String::from("x,y,z,neighbors\n");
+    for n in 0..125 {
+        let at = [n % 5, n / 5 % 5, n / 25].map(f64::from);
+        for basis in [[0.0, 0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0, 0.5]] {
+            let p = [0, 1, 2].map(|k| (0..3).map(|i| (at[i] + basis[i]) * axes[i][k]).sum::<f64>());
+            rows += &format!("{:?},{:?},{:?},7\n", p[0], p[1], p[2]);
+        }
+    }
+    place.file("hcp.csv", rows);
+    let box_ = axes.as_flattened().iter().map(|x| format!("{:?}", 5.0 * x)).collect::<Vec<_>>().join(",");
+    let line = format!("-q voronoi hcp.csv --dim 3 --periodic {box_}");
+    place.succeed(&format!("{line} --min-area 0 -o all.json"));
+    let all = cells(&place, "all.json");
+    judge(&all, 125.0 * 2.0_f64.sqrt());
+    assert!(all.iter().any(|cell| number(&cell["neighbors"]) > 12.0), "rounding makes faces");
+    for least in ["--min-area 1e-6", "--min-relative-area 1e-6"] {
+        place.succeed(&format!("{line} {least} -o c.csv -o c.json -o c.vtu"));
+        let found = cells(&place, "c.json");
+        for (cell, with) in found.iter().zip(&all) {
+            assert_eq!((&cell["neighbors"], &cell["faces"]), (&12.into(), &with["faces"]));
+        }
+        let table = place.read("c.csv");
+        let mut rows = table.lines();
+        let header = "site,volume,area,centroid_x,centroid_y,centroid_z,neighbors,neighbors_2";
+        assert_eq!(rows.next(), Some(header));
+        assert!(rows.all(|row| row.ends_with(",12,7")));
+        let grid = std::fs::read(place.path("c.vtu")).expect("written");
+        assert!(String::from_utf8_lossy(&grid).contains("Name=\"neighbors\""));
+    }
+    // Walls are no neighbors.
+    place.file("one.csv", "x,y,z\n1,1,1\n");
+    place.succeed("-q voronoi one.csv --dim 3 --box 0,0,0,2,2,2 --min-area 0 -o one.csv.json");
+    assert_eq!(cells(&place, "one.csv.json")[0]["neighbors"], 0);
+    place.fail("voronoi one.csv --dim 3 --min-area 1 -o c.ply", 2, "no output has room");
+    place.fail("voronoi one.csv --min-area 1 -o c.csv", 2, "are for cells in space");
+    place.fail("voronoi one.csv --dim 3 --min-area=-1 -o c.csv", 2, "--min-area");
+}
+
 #[test]
 fn wrong_usage_is_named() {
     let place = Place::new();
@@ -226,7 +269,7 @@ fn wrong_usage_is_named() {
     fail("--dim 3 -o c.svg", 2, "Voronoi cells in space are not written to svg files");
     fail("-o c.vtu", 2, "Voronoi cells are not written to vtu files");
     fail("--dim 3 -o c.vtu --wkt lines", 2, "--wkt is for outputs of well-known text");
-    fail("--grid auto -o c.csv", 2, "--grid is for cells in space, or in boxes that repeat");
+    fail("--grid auto -o c.csv", 2, "--grid is for cells in space, or in boxes");
     for option in ["--order 2", "--relax 2", "--sites s.csv", "--areas equal", "--merge auto"] {
         let word = format!("{} is for cells in the plane", option.split(' ').next().expect("a word"));
         fail(&format!("--dim 3 -o c.vtu {option}"), 2, &word);

@@ -68,6 +68,13 @@ fn cells_of_the_plane_fill_their_box() {
     let squares = cells(&place, "l.geojson");
     judge(&squares, 0.09);
     assert!(squares.iter().all(|(ring, _)| ring.len() == 5));
+    // With walls all around it is a box that does not repeat.
+    place.succeed(
+        "-q voronoi l.csv --periodic 0.3,0.3 --axes 0,0 --origin=-0.05,-0.05 --grid auto -o w.geojson",
+    );
+    let walled = cells(&place, "w.geojson");
+    judge(&walled, 0.09);
+    assert!(walled.iter().all(|(ring, area)| ring.len() == 5 && (area - 0.01).abs() < 1e-15));
     // The box of a file: its first two axes, along which it repeats.
     place.file(
         "a.extxyz",

@@ -179,6 +179,23 @@ fn lattices_have_the_neighbors_that_they_have() {
     }
 }
 
+/// Walls between the multiples of a grid stay where they are.
+#[test]
+fn walls_are_not_rounded_to_a_grid() {
+    let points: Vec<Point> = (0..9).map(|i| [i % 3, i / 3].map(|k| f64::from(k) * 0.1)).collect();
+    for periodic in [[true, false], [false; 2]] {
+        let lattice = Lattice2::with_sides([0.3, 0.3]).expect("a box").periodic(periodic).origin([-0.05; 2]);
+        let t = Periodic2::from_points(&points, &lattice.grid(Grid::Auto)).expect("a triangulation");
+        assert_eq!(t.decimal_step(), Some(0.1));
+        let walls = check(&t, 0.09);
+        assert_eq!([walls[&(1, false)].1, walls[&(1, true)].1], [-0.05, 0.25]);
+        let cells = t.cells().expect("cells");
+        for site in t.vertices() {
+            assert!((cells.cell(site).area() - 0.01).abs() < 1e-16 && cells.cell(site).faces().len() == 4);
+        }
+    }
+}
+
 /// Points in a row between walls, duplicates and hidden sites.
 #[test]
 fn rows_and_sites_without_cells() {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use delone::{DecimalGrid, Grid, Lattice};
-use delone_io::UnitCell;
+use delone_io::{LeastFace, UnitCell};
 
 use crate::message::{Failure, note};
 
@@ -28,6 +28,13 @@ pub(crate) struct PeriodicArgs {
         requires = "periodic"
     )]
     pub(crate) origin: Vec<f64>,
+    /// In space, count neighbors: cells that share a face of at least this area, in coordinate units squared. csv, json and vtu have `neighbors` then. So
+    /// faces that rounding makes do not count; cells stay as they are.
+    #[arg(long, value_name = "AREA", value_parser = super::length)]
+    pub(crate) min_area: Option<f64>,
+    /// The same with faces of at least this part of the surface of the cell, as 1e-6.
+    #[arg(long, value_name = "PART", value_parser = super::length)]
+    pub(crate) min_relative_area: Option<f64>,
     /// Take coordinates for decimals: multiples of STEP, or of the power of ten that all are multiples of but for rounding (`auto`). So
     /// crystals have no faces that rounding makes.
     #[arg(long, value_name = "auto|STEP", value_parser = parse_grid, allow_negative_numbers = true)]
@@ -60,6 +67,27 @@ pub(crate) enum GridChoice {
 }
 
 impl PeriodicArgs {
+    /// Refuses what is not for the plane.
+    pub(crate) fn refuse_in_plane(&self) -> Result<(), Failure> {
+        if self.least().is_some() {
+            let what = "--min-area and --min-relative-area are for cells in space";
+            return Err(Failure::usage(what, "add --dim 3"));
+        }
+        if self.periodic.is_none() && self.grid.is_some() {
+            return Err(Failure::usage(
+                "--grid is for cells in space, or in boxes",
+                "add --dim 3, or a box as --periodic LX,LY, which has walls all around with --axes 0,0",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Which faces are those of neighbors, if these are to be counted.
+    pub(crate) fn least(&self) -> Option<LeastFace> {
+        let (area, part) = (self.min_area, self.min_relative_area);
+        area.or(part).map(|_| LeastFace { area: area.unwrap_or(0.0), part: part.unwrap_or(0.0) })
+    }
+
     /// The box by its numbers, on the grid that is asked for; none if it is that of the file, or if there is none.
     ///
     /// # Errors

@@ -134,8 +134,10 @@ impl<const D: usize> Lattice<D> {
         let rounded = axes.map(|axis| std::array::from_fn(|k| in_steps(axis[k], steps[k]).unwrap_or(0)));
         let reduced =
             basis.on_grid(&rounded, &steps).map_err(|error| far_away(points, &beside).unwrap_or(error))?;
-        let origin = self.origin.map(|x| decimal.map_or(x, |grid| grid.index(x)));
-        let walled = std::array::from_fn(|axis| (!self.periodic[axis]).then_some(axes[axis]));
+        // Walls stay where they are, between the multiples too.
+        let wall = |x: f64| decimal.map_or(x, |grid| steps_to(grid, x));
+        let origin = self.origin.map(wall);
+        let walled = std::array::from_fn(|axis| (!self.periodic[axis]).then(|| self.axes[axis].map(wall)));
         Ok(Prepared { decimal, steps, axes: rounded, reduced, origin, walled })
     }
 }
@@ -146,6 +148,14 @@ fn far_away<const D: usize>(points: &[[f64; D]], beside: &[f64; D]) -> Option<Er
     let (index, point) =
         points.iter().enumerate().max_by(|p, q| p.1[axis].abs().total_cmp(&q.1[axis].abs()))?;
     Some(Error::FarAway { index, axis, value: point[axis] })
+}
+
+/// How many steps of a grid a length has: a whole number where it is a multiple but for rounding.
+fn steps_to(grid: DecimalGrid, x: f64) -> f64 {
+    /// Several roundings.
+    const ROUNDING: f64 = 1e-15;
+    let is_multiple = (grid.nearest(x) - x).abs() <= ROUNDING * x.abs();
+    if is_multiple { grid.index(x) } else { x / grid.step() }
 }
 
 /// The least power of two that is not below a positive number.
