@@ -1,10 +1,10 @@
-//! Periodic triangulations, and their cells in space, as arrays.
+//! Periodic triangulations, and their cells, as arrays.
 
 use std::sync::Arc;
 
 use delone::{
-    AcrossPeriodic3, CellularKind, DecimalGrid, Error, Grid, Lattice, Periodic, Periodic2, Periodic3,
-    PeriodicKind, PeriodicRegular2, PeriodicRegular3, VertexId,
+    AcrossPeriodic, CellularKind, DecimalGrid, Error, Grid, Lattice, Periodic, Periodic2, Periodic3,
+    PeriodicCell, PeriodicFace, PeriodicKind, PeriodicRegular2, PeriodicRegular3, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyNotImplementedError, PyValueError};
@@ -46,12 +46,16 @@ type Table<'py, T> = Bound<'py, PyArray2<T>>;
 /// Corners, their offsets, neighbors, their offsets.
 type Arrays<'py> = (Table<'py, i32>, Table<'py, i64>, Table<'py, i32>, Table<'py, i64>);
 
-/// Volumes, areas, centroids; starts of sites among faces; of faces the sites beyond, offsets, areas and vectors.
+/// Volumes, areas, centroids; starts of sites among faces; of faces the sites beyond, offsets, areas and vectors. In the plane areas are
+/// in the place of volumes, and lengths in that of areas.
 type Cells<'py> = (
     (Row<'py, f64>, Row<'py, f64>, Table<'py, f64>),
     Row<'py, i64>,
     (Row<'py, i32>, Table<'py, i64>, Row<'py, f64>, Table<'py, f64>),
 );
+
+/// Corners, the ends of rings among them, and where rings of sites start.
+type Polygons<'py> = (Table<'py, f64>, Row<'py, i64>, Row<'py, i64>);
 
 /// Starts of sites among corners, and corners; starts of faces among the numbers of their corners, and these.
 type Polyhedra<'py> = (Row<'py, i64>, Table<'py, f64>, Row<'py, i64>, Row<'py, i64>);
@@ -148,13 +152,13 @@ impl PyPeriodic {
         each_kind!(self.0, t => (t.rounding(), t.decimal_step(), t.dimension() as i32 - 1))
     }
 
+    #[expect(clippy::redundant_closure_for_method_calls, reason = "a method is for one lifetime")]
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Cells<'py>> {
         match &self.0 {
-            Kind::Space(t) => cells(py, t),
-            Kind::WeightedSpace(t) => cells(py, t),
-            Kind::Plane(_) | Kind::WeightedPlane(_) => {
-                Err(PyNotImplementedError::new_err("cells are for points of space"))
-            }
+            Kind::Plane(t) => cells(py, t, |cell| cell.area(), |side| side.length()),
+            Kind::WeightedPlane(t) => cells(py, t, |cell| cell.area(), |side| side.length()),
+            Kind::Space(t) => cells(py, t, |cell| cell.volume(), |face| face.area()),
+            Kind::WeightedSpace(t) => cells(py, t, |cell| cell.volume(), |face| face.area()),
         }
     }
 
@@ -163,7 +167,17 @@ impl PyPeriodic {
             Kind::Space(t) => polyhedra(py, t),
             Kind::WeightedSpace(t) => polyhedra(py, t),
             Kind::Plane(_) | Kind::WeightedPlane(_) => {
-                Err(PyNotImplementedError::new_err("cells are for points of space"))
+                Err(PyNotImplementedError::new_err("polyhedra are cells of space: see polygons()"))
+            }
+        }
+    }
+
+    fn polygons<'py>(&self, py: Python<'py>) -> PyResult<Polygons<'py>> {
+        match &self.0 {
+            Kind::Plane(t) => polygons(py, t),
+            Kind::WeightedPlane(t) => polygons(py, t),
+            Kind::Space(_) | Kind::WeightedSpace(_) => {
+                Err(PyNotImplementedError::new_err("polygons are cells of the plane: see polyhedra()"))
             }
         }
     }
@@ -225,49 +239,60 @@ fn edges<'py, T: PeriodicKind<D, N> + 'static, const D: usize, const N: usize>(
     Ok((table(py, 2, pairs.into_flattened())?, table(py, D, offsets.into_flattened())?))
 }
 
-fn cells<'py, T: CellularKind + 'static>(
+/// Cells by what is measured of them: their sizes, and those of their faces.
+fn cells<'py, T: CellularKind<D, N> + 'static, const D: usize, const N: usize>(
     py: Python<'py>,
-    t: &Arc<Periodic<T, 3, 4>>,
+    t: &Arc<Periodic<T, D, N>>,
+    size: fn(PeriodicCell<'_, T, D, N>) -> f64,
+    face_size: fn(PeriodicFace<'_, T, D, N>) -> f64,
 ) -> PyResult<Cells<'py>> {
-    #[derive(Default)]
-    struct Found {
-        volumes: Vec<f64>,
-        areas: Vec<f64>,
-        centroids: Vec<[f64; 3]>,
+    struct Found<const D: usize> {
+        sizes: Vec<f64>,
+        surfaces: Vec<f64>,
+        centroids: Vec<[f64; D]>,
         starts: Vec<i64>,
         beyond: Vec<i32>,
-        offsets: Vec<[i64; 3]>,
-        face_areas: Vec<f64>,
-        vectors: Vec<[f64; 3]>,
+        offsets: Vec<[i64; D]>,
+        face_sizes: Vec<f64>,
+        vectors: Vec<[f64; D]>,
     }
     let t = Arc::clone(t);
     let found = interruptible(py, t.ids_given(), move || {
         let cells = t.cells()?;
-        let mut found = Found { starts: vec![0], ..Found::default() };
+        let mut found = Found {
+            sizes: Vec::new(),
+            surfaces: Vec::new(),
+            centroids: Vec::new(),
+            starts: vec![0],
+            beyond: Vec::new(),
+            offsets: Vec::new(),
+            face_sizes: Vec::new(),
+            vectors: Vec::new(),
+        };
         for site in (0..t.ids_given()).map(VertexId::new) {
             let cell = cells.cell(site);
             let mut sum = 0.0;
             for face in cell.faces() {
-                let area = face.area();
-                sum += area;
+                let size = face_size(face);
+                sum += size;
                 // Of some rounding has left nothing.
-                if area > 0.0 {
+                if size > 0.0 {
                     let (beyond, offset) = match face.across() {
-                        AcrossPeriodic3::Site((other, offset)) => (index(other), offset),
+                        AcrossPeriodic::Site((other, offset)) => (index(other), offset),
                         // From -1 on: the beginning of the first axis, its end, and so on.
-                        AcrossPeriodic3::Wall { axis, is_end } => {
-                            (-1 - 2 * axis as i32 - i32::from(is_end), [0; 3])
+                        AcrossPeriodic::Wall { axis, is_end } => {
+                            (-1 - 2 * axis as i32 - i32::from(is_end), [0; D])
                         }
                     };
                     found.beyond.push(beyond);
                     found.offsets.push(offset);
-                    found.face_areas.push(area);
-                    found.vectors.push(face.vector().unwrap_or([f64::NAN; 3]));
+                    found.face_sizes.push(size);
+                    found.vectors.push(face.vector().unwrap_or([f64::NAN; D]));
                 }
             }
-            found.areas.push(sum);
-            found.volumes.push(cell.volume());
-            found.centroids.push(cell.centroid().unwrap_or([f64::NAN; 3]));
+            found.surfaces.push(sum);
+            found.sizes.push(size(cell));
+            found.centroids.push(cell.centroid().unwrap_or([f64::NAN; D]));
             found.starts.push(found.beyond.len() as i64);
         }
         Ok(found)
@@ -275,18 +300,40 @@ fn cells<'py, T: CellularKind + 'static>(
     .map_err(python_error)?;
     let row = |values| PyArray1::from_vec(py, values);
     Ok((
-        (row(found.volumes), row(found.areas), table(py, 3, found.centroids.into_flattened())?),
+        (row(found.sizes), row(found.surfaces), table(py, D, found.centroids.into_flattened())?),
         PyArray1::from_vec(py, found.starts),
         (
             PyArray1::from_vec(py, found.beyond),
-            table(py, 3, found.offsets.into_flattened())?,
-            row(found.face_areas),
-            table(py, 3, found.vectors.into_flattened())?,
+            offset_table(py, found.offsets)?,
+            row(found.face_sizes),
+            table(py, D, found.vectors.into_flattened())?,
         ),
     ))
 }
 
-fn polyhedra<'py, T: CellularKind + 'static>(
+fn polygons<'py, T: CellularKind<2, 3> + 'static>(
+    py: Python<'py>,
+    t: &Arc<Periodic<T, 2, 3>>,
+) -> PyResult<Polygons<'py>> {
+    let t = Arc::clone(t);
+    let (starts, ends, corners) = interruptible(py, t.ids_given(), move || {
+        let cells = t.cells()?;
+        let (mut starts, mut ends, mut corners) = (vec![0], vec![0], Vec::new());
+        for site in (0..t.ids_given()).map(VertexId::new) {
+            for ring in cells.cell(site).rings() {
+                corners.extend(ring);
+                ends.push(corners.len() as i64);
+            }
+            starts.push(ends.len() as i64 - 1);
+        }
+        Ok((starts, ends, corners))
+    })?
+    .map_err(python_error)?;
+    let row = |values| PyArray1::from_vec(py, values);
+    Ok((table(py, 2, corners.into_flattened())?, row(ends), row(starts)))
+}
+
+fn polyhedra<'py, T: CellularKind<3, 4> + 'static>(
     py: Python<'py>,
     t: &Arc<Periodic<T, 3, 4>>,
 ) -> PyResult<Polyhedra<'py>> {

@@ -7,6 +7,7 @@ from fractions import Fraction
 import delone
 import numpy as np
 import pytest
+import shapely
 from delone import pyvoro
 from scipy.spatial import ConvexHull, Voronoi
 
@@ -85,7 +86,86 @@ def test_the_plane_and_mixed_axes():
     strip = delone.Periodic(points, [1, 1], periodic=(True, False))
     assert (strip.neighbors == -1).any() and (strip.offsets[..., 1] == 0).all()
     with pytest.raises(NotImplementedError, match="space"):
-        _ = p.volumes
+        p.polyhedra()
+    with pytest.raises(NotImplementedError, match="plane"):
+        delone.Periodic(np.eye(3), [1, 1, 1]).polygons()
+    with pytest.raises(NotImplementedError, match="plane"):
+        _ = delone.Periodic(np.eye(3), [1, 1, 1]).perimeters
+
+
+@pytest.mark.parametrize("box", [[3, 4], (4, 3, 1), [[4, 1], [0.5, 3.125]]])
+@pytest.mark.parametrize("periodic", [True, (True, False), (False, True), False])
+@pytest.mark.parametrize("n", [1, 2, 30])
+def test_cells_of_the_plane(box, periodic, n):
+    fractions = np.random.default_rng(n).random((n, 2))
+    axes = delone.Periodic(np.zeros((1, 2)), box).box
+    points = fractions @ axes
+    v = delone.Voronoi(points, box=box, periodic=periodic)
+    cells = [shapely.Polygon(rings[0]) for rings in v.cells()]
+    assert all(cell.is_valid and cell.buffer(1e-9).contains(shapely.Point(p)) for cell, p in zip(cells, points, strict=True))
+    np.testing.assert_allclose([cell.area for cell in cells], v.areas)
+    np.testing.assert_allclose([cell.length for cell in cells], v.perimeters)
+    np.testing.assert_allclose([cell.centroid.coords[0] for cell in cells], v.centroids, atol=1e-9)
+    assert v.volumes is v.areas and v.areas.sum() == pytest.approx(12, rel=1e-13)
+    of = np.repeat(np.arange(n), np.diff(v.nlist.indptr))
+    moved = points[v.nlist.indices] + v.nlist.offsets @ axes - points[of]
+    np.testing.assert_allclose(moved, v.nlist.vectors, atol=1e-12)
+    sums = np.bincount(np.repeat(np.arange(n), np.diff(v.in_box.faces.indptr)), v.in_box.faces.lengths)
+    np.testing.assert_allclose(sums, v.perimeters)
+    if periodic is True:
+        shifts = np.array(list(itertools.product((0, -1, 1, -2, 2), repeat=2)))
+        reference = Voronoi(((fractions[None] + shifts[:, None]).reshape(-1, 2)) @ axes)
+        rings = [reference.vertices[reference.regions[reference.point_region[i]]] for i in range(n)]
+        np.testing.assert_allclose(v.areas, [ConvexHull(ring).volume for ring in rings], rtol=1e-9)
+        # All copies of the cells tile: no two overlap.
+        copies = [shapely.affinity.translate(cell, *(shift @ axes)) for cell in cells for shift in shifts[:25]]
+        assert shapely.union_all(copies).area == pytest.approx(25 * 12, rel=1e-9)
+    with pytest.raises(ValueError, match="leave region out"):
+        v.cells((0, 0, 1, 1))
+
+
+def test_freud_finds_the_same_cells_in_the_plane():
+    freud = pytest.importorskip("freud")
+    points = np.zeros((300, 3), dtype=np.float32)
+    points[:, :2] = np.random.default_rng(4).random((300, 2)) * 8 - 4
+    voronoi = freud.locality.Voronoi()
+    voronoi.compute((freud.box.Box(8, 8, xy=0.25, is2D=True), points))
+    v = delone.Voronoi(points[:, :2].astype(np.float64), box=(8, 8, 2))
+    np.testing.assert_allclose(v.volumes, voronoi.volumes, rtol=1e-4)
+    near = v.nlist.filter(min_area=1e-3)
+    pairs = sorted(zip(np.repeat(np.arange(300), np.diff(near.indptr)).tolist(), near.indices.tolist(), strict=True))
+    weights = voronoi.nlist.weights > 1e-3
+    assert pairs == sorted(map(tuple, np.asarray(voronoi.nlist[:])[weights].tolist()))
+    np.testing.assert_allclose(np.sort(near.lengths), np.sort(voronoi.nlist.weights[weights]), atol=1e-4)
+
+
+def rotation(seed):
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q *= np.sign(np.diag(r))
+    return q * np.sign(np.linalg.det(q))
+
+
+def test_small_faces_are_no_neighbors():
+    # Hexagonal close packing and turned crystals: coordinates that no decimals are.
+    axes = np.array([[1, 0, 0], [0.5, 3**0.5 / 2, 0], [0, 0, (8 / 3) ** 0.5]])
+    basis = np.array([[0, 0, 0], [1 / 3, 1 / 3, 0.5]])
+    grid = np.array(list(itertools.product(range(5), repeat=3)))
+    hcp = (grid[:, None] + basis[None]).reshape(-1, 3) @ axes
+    fcc = (grid[:, None] + np.array(FCC)[None]).reshape(-1, 3)
+    for points, box in [(hcp, 5 * axes), *((fcc @ rotation(seed), 5 * rotation(seed)) for seed in range(3))]:
+        v = delone.Voronoi(points, box=box)
+        assert np.diff(v.nlist.indptr).max() > 12
+        for near in (v.nlist.filter(min_area=1e-6), v.nlist.filter(min_relative_area=1e-6)):
+            assert (np.diff(near.indptr) == 12).all()
+            lengths = np.linalg.norm(near.vectors, axis=1)
+            np.testing.assert_allclose(lengths, lengths[0], rtol=1e-12)
+        assert v.volumes.sum() == pytest.approx(np.linalg.det(box), rel=1e-13)
+    assert v.nlist.filter().indices.tolist() == v.nlist.indices.tolist()
+    assert len(v.nlist.filter(min_area=9).indices) == 0
+    with pytest.raises(ValueError, match="min_area must be"):
+        v.nlist.filter(min_area=-1)
+    with pytest.raises(ValueError, match="min_relative_area must be"):
+        v.nlist.filter(min_relative_area=np.nan)
 
 
 def test_copies_are_duplicates():

@@ -42,6 +42,7 @@ mod powers;
 pub mod progress;
 mod queries;
 mod relief;
+mod repeated;
 #[doc(hidden)]
 pub mod room;
 mod signals;

@@ -9,33 +9,36 @@ use delone::{
 };
 use delone_io::{Cloud, Contents, Format, Polyhedra, write_polyhedra};
 
-use crate::args::{GridChoice, PeriodicBox, VoronoiArgs};
+use crate::args::{GridChoice, VoronoiArgs};
 use crate::clip::is_polygon;
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
+use crate::repeated::{self, NO_GRID, tell_grid};
 use crate::room::{self, Room};
 use crate::stats::Stats;
 use crate::weighted;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse_flat(args)?;
-    let mut lattice = match args.space.periodic {
-        Some(PeriodicBox::Axes(axes)) => Some(args.space.lattice(axes)?),
-        _ => None,
-    };
+    let of_numbers: Option<Lattice3> = args.space.of_numbers()?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs_of(&args.output, args.to, stats_path, &inputs, as_cells)?;
     files::check_formats(&outputs, &[Contents::Polyhedra])?;
     let outputs = args.wkt.of(outputs)?;
+    let has_neighbors = |format: Format| matches!(format, Format::Text | Format::Json | Format::Vtu);
+    if args.space.least().is_some() && !outputs.iter().any(|(_, format)| has_neighbors(*format)) {
+        return Err(Failure::usage(
+            "neighbors are counted, and no output has room for their numbers",
+            "write csv, json or vtu, or leave --min-area and --min-relative-area out",
+        ));
+    }
     files::keep_attributes(Contents::Polyhedra);
     let mut stats = Stats::start();
     let (points, weights, about) = weighted::read::<Delaunay3>(&args.input, &args.weights, quiet)?;
     stats.phase("read");
-    if args.space.periodic == Some(PeriodicBox::OfFile) {
-        lattice = Some(args.space.lattice(box_of(&about, args)?)?);
-    }
+    let lattice = repeated::lattice(args, of_numbers, &about, quiet)?;
     let weights = args.weights.given().is_some().then_some(&weights[..]);
     let work = Work { args, points: &points, weights, about: &about, outputs: &outputs, quiet };
     match lattice {
@@ -69,23 +72,6 @@ fn refuse_flat(args: &VoronoiArgs) -> Result<(), Failure> {
         ));
     }
     Ok(())
-}
-
-/// The axes of the box that the file tells.
-fn box_of(about: &Cloud, args: &VoronoiArgs) -> Result<[[f64; 3]; 3], Failure> {
-    let label = args.input.label();
-    let failed = |what: String, help: &str| Failure::new(format!("{}: {what}", label.display()), help);
-    match about.cell {
-        None => Err(failed(
-            "it tells no box".to_owned(),
-            "give the box as --periodic LX,LY,LZ, or a file that has one: lammpstrj, extxyz",
-        )),
-        Some(cell) if cell.periodic != [true; 3] => Err(failed(
-            cell.to_string(),
-            "give a box that repeats along all axes as --periodic LX,LY,LZ: cells of others are not bounded, and not made yet",
-        )),
-        Some(cell) => Ok(cell.axes),
-    }
 }
 
 /// The format of a file of cells: of JSON that of its own, unless it is said to be GeoJSON.
@@ -196,39 +182,25 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn repeated<T: CellularKind>(&self, made: &Periodic<T, 3, 4>, stats: &mut Stats) -> Result<(), Failure> {
+    fn repeated<T: CellularKind<3, 4>>(
+        &self,
+        made: &Periodic<T, 3, 4>,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
         stats.phase("build");
-        let (points, duplicates) = (made.ids_given(), made.duplicates().count());
-        if duplicates > 0 {
-            let text = if duplicates == 1 {
-                "is a copy of another one, and has no cell"
-            } else {
-                "are copies of others, and have no cells"
-            };
-            note(self.quiet, format_args!("{duplicates} of {points} points {text}"));
-        }
-        let hidden = made.hidden().count();
-        weighted::tell_hidden(hidden, self.quiet);
-        match (self.args.space.grid, made.decimal_step()) {
-            (Some(_), Some(step)) => tell_grid(step, made.rounding(), stats, self.quiet),
-            (Some(_), None) => note(self.quiet, NO_GRID),
-            (None, _) => {}
-        }
-        stats.set("points", points);
-        stats.set("duplicates", duplicates);
-        stats.set("vertices", made.vertices().count());
-        stats.set("simplices", made.simplex_count());
-        stats.set("hidden", hidden);
-        stats.set("rounding", made.rounding());
+        repeated::tell(made, self.args, stats, self.quiet);
         let phase = Phase::start(self.quiet, "cutting cells");
         let cells = made.cells().map_err(|error| self.failed(&error))?;
         drop(phase);
         stats.phase("cells");
-        self.write(Polyhedra::of_periodic(self.points, &cells), stats)
+        let cells = Polyhedra::of_periodic(self.points, &cells);
+        repeated::tell_beyond(made.vertices().count() - cells.count(), stats, self.quiet);
+        self.write(cells, stats)
     }
 
     fn write(&self, mut cells: Polyhedra<'a>, stats: &mut Stats) -> Result<(), Failure> {
         cells.crs = self.about.crs.as_ref();
+        cells.least = self.args.space.least();
         cells.features = files::are_attributes_kept().then_some(&self.about.features);
         stats.set("cells", cells.count());
         stats.set("volume", cells.volume());
@@ -238,18 +210,6 @@ impl<'a> Work<'a> {
         }
         Ok(())
     }
-}
-
-/// A note where no decimals are found.
-const NO_GRID: &str = "the coordinates are multiples of no power of ten: they are taken as they are";
-
-fn tell_grid(step: f64, moved: f64, stats: &mut Stats, quiet: bool) {
-    stats.set("grid", step);
-    stats.set("rounding", moved);
-    note(
-        quiet,
-        format_args!("coordinates are taken as multiples of {step:?}, and move by at most {moved:.1e}"),
-    );
 }
 
 /// The region to clip to, in steps of the grid if there is one.

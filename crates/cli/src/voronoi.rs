@@ -13,6 +13,7 @@ use crate::orders;
 use crate::polyhedra;
 use crate::powers;
 use crate::progress::Phase;
+use crate::repeated;
 use crate::room::{self, Room};
 use crate::sites;
 use crate::stats::Stats;
@@ -25,9 +26,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     if args.dim.is_space() {
         return polyhedra::run(args, quiet);
     }
-    if let Some(option) = args.space.option() {
-        return Err(Failure::usage(format!("{option} is for cells in space"), "add --dim 3"));
-    }
+    args.space.refuse_in_plane()?;
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {
@@ -42,6 +41,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     files::check_formats(&outputs, &[Contents::Cells])?;
     if args.order.is_none() {
         files::keep_attributes(Contents::Cells);
+    }
+    if args.space.periodic.is_some() {
+        return repeated::run(args, &outputs, quiet);
     }
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     let mut stats = Stats::start();

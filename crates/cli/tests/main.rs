@@ -30,6 +30,7 @@ mod place;
 mod polyhedra;
 mod program;
 mod rasters;
+mod repeated;
 mod resume;
 mod segments;
 mod slivers;

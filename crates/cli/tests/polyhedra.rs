@@ -215,6 +215,49 @@ fn decimals_are_taken_at_their_word() {
     assert!(told.contains("move by at most 8.3e-2"), "{told}");
 }
 
+/// Hexagonal close packing: no decimals, but twelve neighbors of each.
+#[test]
+fn small_faces_are_no_neighbors() {
+    let place = Place::new();
+    let axes = [[1.0, 0.0, 0.0], [0.5, 0.75_f64.sqrt(), 0.0], [0.0, 0.0, (8.0_f64 / 3.0).sqrt()]];
+    let mut rows = String::from("x,y,z,neighbors\n");
+    for n in 0..125 {
+        let at = [n % 5, n / 5 % 5, n / 25].map(f64::from);
+        for basis in [[0.0, 0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0, 0.5]] {
+            let p = [0, 1, 2].map(|k| (0..3).map(|i| (at[i] + basis[i]) * axes[i][k]).sum::<f64>());
+            rows += &format!("{:?},{:?},{:?},7\n", p[0], p[1], p[2]);
+        }
+    }
+    place.file("hcp.csv", rows);
+    let box_ = axes.as_flattened().iter().map(|x| format!("{:?}", 5.0 * x)).collect::<Vec<_>>().join(",");
+    let line = format!("-q voronoi hcp.csv --dim 3 --periodic {box_}");
+    place.succeed(&format!("{line} --min-area 0 -o all.json"));
+    let all = cells(&place, "all.json");
+    judge(&all, 125.0 * 2.0_f64.sqrt());
+    assert!(all.iter().any(|cell| number(&cell["neighbors"]) > 12.0), "rounding makes faces");
+    for least in ["--min-area 1e-6", "--min-relative-area 1e-6"] {
+        place.succeed(&format!("{line} {least} -o c.csv -o c.json -o c.vtu"));
+        let found = cells(&place, "c.json");
+        for (cell, with) in found.iter().zip(&all) {
+            assert_eq!((&cell["neighbors"], &cell["faces"]), (&12.into(), &with["faces"]));
+        }
+        let table = place.read("c.csv");
+        let mut rows = table.lines();
+        let header = "site,volume,area,centroid_x,centroid_y,centroid_z,neighbors,neighbors_2";
+        assert_eq!(rows.next(), Some(header));
+        assert!(rows.all(|row| row.ends_with(",12,7")));
+        let grid = std::fs::read(place.path("c.vtu")).expect("written");
+        assert!(String::from_utf8_lossy(&grid).contains("Name=\"neighbors\""));
+    }
+    // Walls are no neighbors.
+    place.file("one.csv", "x,y,z\n1,1,1\n");
+    place.succeed("-q voronoi one.csv --dim 3 --box 0,0,0,2,2,2 --min-area 0 -o one.csv.json");
+    assert_eq!(cells(&place, "one.csv.json")[0]["neighbors"], 0);
+    place.fail("voronoi one.csv --dim 3 --min-area 1 -o c.ply", 2, "no output has room");
+    place.fail("voronoi one.csv --min-area 1 -o c.csv", 2, "are for cells in space");
+    place.fail("voronoi one.csv --dim 3 --min-area=-1 -o c.csv", 2, "--min-area");
+}
+
 #[test]
 fn wrong_usage_is_named() {
     let place = Place::new();
@@ -226,8 +269,7 @@ fn wrong_usage_is_named() {
     fail("--dim 3 -o c.svg", 2, "Voronoi cells in space are not written to svg files");
     fail("-o c.vtu", 2, "Voronoi cells are not written to vtu files");
     fail("--dim 3 -o c.vtu --wkt lines", 2, "--wkt is for outputs of well-known text");
-    fail("--periodic 1,1,1 -o c.csv", 2, "--periodic is for cells in space");
-    fail("--grid auto -o c.csv", 2, "--grid is for cells in space");
+    fail("--grid auto -o c.csv", 2, "--grid is for cells in space, or in boxes");
     for option in ["--order 2", "--relax 2", "--sites s.csv", "--areas equal", "--merge auto"] {
         let word = format!("{} is for cells in the plane", option.split(' ').next().expect("a word"));
         fail(&format!("--dim 3 -o c.vtu {option}"), 2, &word);
@@ -262,6 +304,66 @@ const DUMP: &str = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUND
 const FRAME: &str =
     "2\nLattice=\"2 0 0 1 3 0 0 0 4\" Properties=species:S:1:pos:R:3:r:R:1\nSi 0.5 1 2 0.25\nO 5 4 3 0.5\n";
 
+/// Walls of a cell along an axis, and their ends.
+fn walls(all: &[Value]) -> Vec<u64> {
+    let faces = all.iter().flat_map(|cell| list(&cell["faces"]));
+    let mut walls: Vec<u64> = faces.filter_map(|face| face["wall"].as_u64()).collect();
+    walls.sort_unstable();
+    walls.dedup();
+    walls
+}
+
+#[test]
+fn boxes_that_repeat_along_some_axes_have_walls() {
+    let place = Place::new();
+    points(&place, 50);
+    for (axes, expected) in
+        [("xy", &[4, 5][..]), ("0,1,0", &[0, 1, 4, 5]), ("ff,s,m", &[0, 1, 2, 3, 4, 5]), ("p,p,p", &[])]
+    {
+        for (axis, whole) in [("1,1,1", 1.0), ("1,1,1,-0.5,0.25,0.5", 1.0), ("2,0,0,0,1,0,0.5,0,1", 2.0)] {
+            let line = format!("-q voronoi p.csv --dim 3 --periodic {axis} --origin 0,0,0 --axes {axes}");
+            place.succeed(&format!("{line} -o c.json"));
+            let all = cells(&place, "c.json");
+            judge(&all, whole);
+            assert_eq!(walls(&all), expected, "{axes} {axis}");
+        }
+    }
+    // What the file says; and nothing of it is overlooked.
+    let slab = DUMP.replace("pp pp pp", "pp pp ff");
+    place.file("m.lammpstrj", &slab);
+    place.file("m.extxyz", FRAME.replace("Properties", "pbc=\"T F T\" Origin=\"0 1 0\" Properties"));
+    let told = text(&place.run("voronoi m.lammpstrj --dim 3 --periodic -o c.json").stderr);
+    assert!(
+        told.contains("begins at (0.0, 0.0, 1.0) and repeats along the first and the second alone"),
+        "{told}"
+    );
+    assert!(told.contains("1 cell is beyond the walls of the box, and empty"), "{told}");
+    let all = cells(&place, "c.json");
+    judge(&all, 24.0);
+    assert_eq!(walls(&all), [4, 5]);
+    let ends = all.iter().flat_map(|cell| list(&cell["vertices"])).map(|p| number(&p[2]));
+    assert_eq!(ends.clone().fold((f64::MAX, f64::MIN), |(a, b), z| (a.min(z), b.max(z))), (1.0, 5.0));
+    place.succeed("-q voronoi m.lammpstrj --dim 3 --periodic 2,3,4 --axes xy --origin 0,0,1 -o d.json");
+    assert_eq!(place.read("c.json"), place.read("d.json"));
+    place.succeed("-q voronoi m.extxyz --dim 3 --periodic -o e.json");
+    judge(&cells(&place, "e.json"), 24.0);
+    assert_eq!(walls(&cells(&place, "e.json")), [2, 3]);
+    let told = text(&place.run("voronoi m.extxyz --dim 3 --periodic --axes xyz -o e.json").stderr);
+    assert!(told.contains("--axes is taken: the file says otherwise"), "{told}");
+    assert_eq!(walls(&cells(&place, "e.json")), [0; 0]);
+    let told = text(&place.run("voronoi m.extxyz --dim 3 --periodic 2,3,4 -o e.json").stderr);
+    assert!(told.contains("that of the file does as with --axes xz"), "{told}");
+    let fail = |options: &str, status, word: &str| {
+        place.fail(&format!("-q voronoi p.csv --dim 3 -o x.json {options}"), status, word);
+    };
+    fail("--axes xy", 2, "--periodic");
+    fail("--periodic 1,1,1 --axes up", 2, "letters of axes");
+    fail("--periodic 1,1,1 --axes 1,0", 2, "--axes is not for 3 dimensions");
+    fail("--periodic 1,1,1 --origin 1,0", 2, "--origin takes 3 finite numbers");
+    fail("--periodic 1,1,1 --origin 1,0,inf", 2, "--origin takes 3 finite numbers");
+    fail("--periodic 1,1,0 --axes xy", 2, "axis 2 of the box, counted from 0, is zero");
+}
+
 #[test]
 fn boxes_of_files_are_taken() {
     let place = Place::new();
@@ -293,7 +395,6 @@ fn boxes_of_files_are_taken() {
         "point 2 has the radius -0.125, which is negative",
     );
     place.file("m.lammpstrj", DUMP.replace("pp pp pp", "pp pp ff"));
-    fail("m.lammpstrj --dim 3 --periodic", 1, "repeats along the first and the second alone");
     place.file("p.extxyz", "1\nwater\nH 0 0 0\n");
     fail("p.extxyz --dim 3 --periodic", 1, "it tells no box");
     fail("a.lammpstrj m.lammpstrj --dim 3 --periodic", 1, "its box is another one");

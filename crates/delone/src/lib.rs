@@ -160,8 +160,10 @@ pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
 pub use parallel::share_work_from;
 pub use periodic::{
-    AcrossPeriodic3, CellularKind, Grid, Image, Lattice, Lattice2, Lattice3, Periodic, Periodic2, Periodic3,
-    PeriodicCell3, PeriodicCells3, PeriodicFace3, PeriodicKind, PeriodicRegular2, PeriodicRegular3,
+    AcrossPeriodic, AcrossPeriodic2, AcrossPeriodic3, CellularKind, Grid, Image, Lattice, Lattice2, Lattice3,
+    Periodic, Periodic2, Periodic3, PeriodicCell, PeriodicCell2, PeriodicCell3, PeriodicCells,
+    PeriodicCells2, PeriodicCells3, PeriodicFace, PeriodicFace3, PeriodicKind, PeriodicRegular2,
+    PeriodicRegular3, PeriodicSide2,
 };
 pub use plane::check::Flaw2;
 pub use plane::{

@@ -25,6 +25,7 @@ mod neighbors;
 mod orders;
 mod papers;
 mod periodic;
+mod periodic_plane;
 mod positions;
 mod power;
 mod properties;

@@ -348,7 +348,7 @@ fn scales_do_not_show() {
 }
 
 /// Cells tile the box: volumes add up, centroids are inside, and each face is one of the cell beyond it too, seen from there.
-fn check_cells<T: CellularKind>(t: &Periodic<T, 3, 4>, volume_of_box: f64) -> usize {
+fn check_cells<T: CellularKind<3, 4>>(t: &Periodic<T, 3, 4>, volume_of_box: f64) -> usize {
     let cells = t.cells().expect("walls");
     let sites = 0..t.ids_given();
     let volume: f64 = sites.clone().map(|i| cells.cell(VertexId::new(i)).volume()).sum();

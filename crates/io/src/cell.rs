@@ -9,12 +9,17 @@ pub struct UnitCell {
     pub axes: [[f64; 3]; 3],
     /// Along which axes it repeats.
     pub periodic: [bool; 3],
+    /// Where it begins.
+    pub origin: [f64; 3],
 }
 
 impl fmt::Display for UnitCell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let axis = |axis: &[f64; 3]| format!("({})", axis.map(|x| format!("{x:?}")).join(", "));
         write!(f, "the box has the axes {}", self.axes.each_ref().map(axis).join(", "))?;
+        if self.origin != [0.0; 3] {
+            write!(f, ", begins at {}", axis(&self.origin))?;
+        }
         match self.periodic {
             [true, true, true] => write!(f, " and repeats along all"),
             [false, false, false] => write!(f, " and does not repeat"),

@@ -72,7 +72,7 @@ pub use output::{
 };
 pub use patches::{Patches, write_patches};
 pub use paths::{beside, open, open_as, side};
-pub use polyhedra::Polyhedra;
+pub use polyhedra::{LeastFace, Polyhedra};
 pub use raster::{
     ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
     ReliefRows, Sample, ShadeWriter, beside_raster, besides_of_raster, crs_of_side, heed_sides, read_raster,

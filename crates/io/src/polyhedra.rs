@@ -19,8 +19,19 @@ pub struct Polyhedra<'a> {
     corners: Vec<u32>,
     /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
+    /// Which faces count as those of neighbors: CSV, JSON and VTU have their number if this is told.
+    pub least: Option<LeastFace>,
     /// The attributes of the points, which their cells have in CSV, JSON and, if they are numbers, VTU.
     pub features: Option<&'a Features>,
+}
+
+/// How large a face between two cells must be, so that these are neighbors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LeastFace {
+    /// In coordinate units squared.
+    pub area: f64,
+    /// As a part of the surface of the cell.
+    pub part: f64,
 }
 
 /// Measures of a cell, and its faces.
@@ -55,7 +66,7 @@ impl<'a> Polyhedra<'a> {
     fn new(sites: &'a [[f64; 3]]) -> Self {
         let (vertices, cells, faces, corners) =
             (Vec::new(), Vec::with_capacity(sites.len()), Vec::new(), Vec::new());
-        Self { sites, vertices, cells, faces, corners, crs: None, features: None }
+        Self { sites, vertices, cells, faces, corners, crs: None, least: None, features: None }
     }
 
     /// The cells of points in a region. If they were made of integers on a grid, they are in coordinate units again.
@@ -103,7 +114,7 @@ impl<'a> Polyhedra<'a> {
     }
 
     /// The cells of points that repeat, each around its point.
-    pub fn of_periodic<T: CellularKind>(sites: &'a [[f64; 3]], cells: &PeriodicCells3<T>) -> Self {
+    pub fn of_periodic<T: CellularKind<3, 4>>(sites: &'a [[f64; 3]], cells: &PeriodicCells3<T>) -> Self {
         let mut all = Self::new(sites);
         for site in 0..sites.len() {
             let cell = cells.cell(VertexId::new(site));
@@ -174,6 +185,15 @@ impl<'a> Polyhedra<'a> {
         corners.sort_unstable();
         corners.dedup();
         corners
+    }
+
+    /// How many neighbors a cell has, if it is told what they are.
+    pub(crate) fn neighbors(&self, site: usize) -> Option<usize> {
+        let LeastFace { area, part } = self.least?;
+        let least = area.max(part * self.cells[site].area);
+        let is_one =
+            |face: &Face| !matches!(face.beyond, Beyond::Wall(_)) && face.area > 0.0 && face.area >= least;
+        Some(self.faces(site).filter(|(face, _)| is_one(face)).count())
     }
 
     /// The row of the attributes of a point.

@@ -141,6 +141,7 @@ class Periodic:
     def polyhedra(
         self,
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
+    def polygons(self) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
 
 @final
 class Regular:

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._merge import as_merge, length_of
+from ._periodic import pieces
 from ._points import as_index, as_points, as_queries
-from ._voronoi import _pieces, _rings
+from ._voronoi import _rings
 
 
 class OrderVoronoi:
@@ -104,7 +105,7 @@ class OrderVoronoi:
         Sides up to the length `merge` are contracted, see `Voronoi`.
         """
         rings = self._border(region)
-        return _pieces(*self._core.cells(rings, length_of(as_merge(merge), *rings)))
+        return pieces(*self._core.cells(rings, length_of(as_merge(merge), *rings)))
 
     def areas(self, region: ArrayLike | Sequence[ArrayLike] | None = None) -> NDArray[np.float64]:
         """The areas of the clipped regions; see `cells`."""

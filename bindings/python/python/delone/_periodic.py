@@ -21,7 +21,7 @@ class Faces(NamedTuple):
     An entry is a face that has an area: `indices` is the point beyond it, `offsets` how often each axis of the box is added to
     that, `areas` its area, `vectors` goes from the point to the copy beyond. Both sides of a face have an entry; a point may
     be its own neighbor. Walls of the box have the indices -1 and -2 at the beginning and the end of the first axis, then -3 to
-    -6, and NaN as vectors.
+    -6, and NaN as vectors. Faces of cells in the plane are sides, and `areas` are their lengths, which `lengths` names.
     """
 
     indptr: NDArray[np.int64]
@@ -30,10 +30,41 @@ class Faces(NamedTuple):
     areas: NDArray[np.float64]
     vectors: NDArray[np.float64]
 
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """The lengths of sides in the plane; the areas of faces in space."""
+        return self.areas
+
+    def filter(self, min_area: float = 0.0, min_relative_area: float = 0.0) -> Faces:
+        """The faces that are large enough to be neighbors: of at least `min_area`, in the plane of that length, and of at least
+        `min_relative_area` of all areas of their row. Lattices that are no decimals have faces that rounding makes, where more
+        than four cells meet in a corner; cells stay as they are.
+
+        Examples
+        --------
+        >>> import delone
+        >>> import numpy as np
+        >>> a = [[1, 0, 0], [0.5, 3**0.5 / 2, 0], [0, 0, (8 / 3) ** 0.5]]
+        >>> hcp = delone.Voronoi([[0, 0, 0], [0.5, 12**-0.5, (2 / 3) ** 0.5]], box=a)
+        >>> np.diff(hcp.nlist.filter(min_relative_area=1e-6).indptr).tolist()
+        [12, 12]
+        """
+        for name, least in (("min_area", min_area), ("min_relative_area", min_relative_area)):
+            if not 0 <= least < np.inf:
+                raise ValueError(f"{name} must be a number from 0, not {least!r}")
+        rows = len(self.indptr) - 1
+        of = np.repeat(np.arange(rows), np.diff(self.indptr))
+        sums = np.bincount(of, self.areas, rows)
+        return self._of((self.areas >= min_area) & (self.areas >= min_relative_area * sums[of]))
+
+    def _of(self, kept: NDArray[np.bool_]) -> Faces:
+        before = np.concatenate([[0], np.cumsum(kept)])
+        indptr, indices, offsets, areas, vectors = self
+        return Faces(before[indptr], indices[kept], offsets[kept], areas[kept], vectors[kept])
+
 
 class Periodic:
-    """The triangulation of points and of all their copies in a box that repeats, in the plane or in space; in space also the
-    cells.
+    """The triangulation of points and of all their copies in a box that repeats, in the plane or in space; and the cells.
 
     It is exact, and does not depend on the order of the points, nor on where the box begins. One point is enough. Of the
     points only their places in the box count: they may be outside of it, and offsets are seen from where they are.
@@ -44,7 +75,7 @@ class Periodic:
         The points. All must be finite.
     box : array_like
         The sides of a box; or in space six numbers (lx, ly, lz, xy, xz, yz), as LAMMPS has them for the axes (lx, 0, 0), (xy,
-        ly, 0) and (xz, yz, lz); or a matrix with an axis in each row, right-handed.
+        ly, 0) and (xz, yz, lz), in the plane three (lx, ly, xy); or a matrix with an axis in each row, right-handed.
     periodic : bool or sequence of bool
         Along which axes the box repeats. Along others simplices go on without bounds, and cells end at the walls of the box.
     radii : array_like of floats, shape (n,), optional
@@ -71,9 +102,11 @@ class Periodic:
     is_simplicial : bool
         Whether points alone name the simplices: no simplex has a point twice, and no two have the same points.
     volumes, areas : arrays of shape (n,)
-        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. 0 for
-        duplicates, hidden points, and cells beyond the walls.
-    centroids : array of shape (n, 3)
+        Of points in space the volumes of their cells, which add up to that of the box, and the areas of their surfaces. Of
+        points in the plane both are the areas of their cells. 0 for duplicates, hidden points, and cells beyond the walls.
+    perimeters : array of shape (n,)
+        Of points in the plane the lengths of the borders of their cells.
+    centroids : array of shape (n, d)
         The centers of mass of the cells; NaN for those without volume.
     nlist : Faces
         The faces between cells, as rows of a sparse matrix.
@@ -192,12 +225,19 @@ class Periodic:
 
     @property
     def volumes(self) -> NDArray[np.float64]:
-        """The volumes of the cells."""
+        """The volumes of the cells; in the plane their areas."""
         return self._cells[0]
 
     @property
     def areas(self) -> NDArray[np.float64]:
-        """The areas of their surfaces."""
+        """The areas of their surfaces; in the plane those of the cells."""
+        return self._cells[1] if self.ndim == 3 else self._cells[0]
+
+    @property
+    def perimeters(self) -> NDArray[np.float64]:
+        """The lengths of the borders of cells in the plane."""
+        if self.ndim == 3:
+            raise NotImplementedError("perimeters are those of cells in the plane")
         return self._cells[1]
 
     @property
@@ -213,10 +253,7 @@ class Periodic:
     @cached_property
     def nlist(self) -> Faces:
         """The faces between cells."""
-        indptr, indices, offsets, areas, vectors = self.faces
-        kept = indices >= 0
-        before = np.concatenate([[0], np.cumsum(kept)])
-        return Faces(before[indptr], indices[kept], offsets[kept], areas[kept], vectors[kept])
+        return self.faces._of(self.faces.indices >= 0)
 
     def polyhedra(self) -> list[tuple[NDArray[np.float64], list[NDArray[np.int64]]]]:
         """The cells as polyhedra: for each point the corners, and the faces as indices of corners, counter-clockwise seen from
@@ -227,15 +264,29 @@ class Periodic:
         both = zip(pairwise(starts), pairwise(rows), strict=True)
         return [(corners[a:b], rings[c:d]) for (a, b), (c, d) in both]
 
+    def polygons(self) -> list[list[NDArray[np.float64]]]:
+        """The cells in the plane as polygons: for each point the rings of its cell, counter-clockwise, as `Voronoi.cells` gives
+        them: one, but for points without a cell. Each is around the point where it was given."""
+        corners, ends, starts = self._core.polygons()
+        return pieces(corners, ends, starts)
+
     def __repr__(self) -> str:
         """A line that says what there is."""
         return f"<delone.Periodic: {self.npoints} points, {len(self.simplices)} simplices>"
 
 
+def pieces(
+    corners: NDArray[np.float64], ring_starts: NDArray[np.int64], starts: NDArray[np.int64]
+) -> list[list[NDArray[np.float64]]]:
+    """For each cell its rings."""
+    rings = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
+    return [rings[a:b] for a, b in pairwise(starts.tolist())]
+
+
 def as_box(box: ArrayLike, ndim: int) -> NDArray[np.float64]:
-    """The axes of a box, one a row, from its sides, from six numbers or from a matrix."""
+    """The axes of a box, one a row, from its sides, from these and tilt factors, or from a matrix."""
     array = as_numbers(box, "box").astype(np.float64)
-    is_tilted = array.shape == (6,) and ndim == 3
+    is_tilted = array.shape == (ndim * (ndim + 1) // 2,)
     if array.shape == (ndim,) or is_tilted:
         for axis, side in enumerate(array[:ndim]):
             if not 0 < side < np.inf:
@@ -243,11 +294,13 @@ def as_box(box: ArrayLike, ndim: int) -> NDArray[np.float64]:
     if array.shape == (ndim,):
         return np.diag(array)
     if is_tilted:
-        lx, ly, lz, xy, xz, yz = array
-        return np.array([[lx, 0, 0], [xy, ly, 0], [xz, yz, lz]])
+        axes = np.diag(array[:ndim])
+        axes[np.tril_indices(ndim, -1)] = array[ndim:]
+        return axes
     if array.shape == (ndim, ndim):
         return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"])
-    kinds = "3 sides, (lx, ly, lz, xy, xz, yz), or a matrix of 3 rows" if ndim == 3 else "2 sides, or a matrix of 2 rows"
+    of_space = "3 sides, (lx, ly, lz, xy, xz, yz), or a matrix of 3 rows"
+    kinds = of_space if ndim == 3 else "2 sides, (lx, ly, xy), or a matrix of 2 rows"
     raise ValueError(f"box must be {kinds} for points of {ndim} coordinates; its shape is {array.shape}")
 
 

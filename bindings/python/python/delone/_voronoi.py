@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from ._delaunay import Delaunay
 from ._lists import lists
 from ._merge import as_merge, length_of, merged_centers
 from ._options import parse
-from ._periodic import Faces, Periodic
+from ._periodic import Faces, Periodic, pieces
 from ._points import as_flag, as_numbers, as_points
 from ._polygons import rings_of_region
 
@@ -40,12 +39,12 @@ class Voronoi:
         one again, as on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length
         have their vertex infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
     box, periodic, radii, grid, origin : optional
-        A box that cells of points in space end at, or that repeats: see `Periodic`, which takes the same. The diagram has
-        `volumes`, `areas`, `centroids`, `nlist` and `in_box` then, and not the attributes below.
+        A box that cells end at, or that repeats: see `Periodic`, which takes the same. The diagram has `volumes`, `areas`,
+        `centroids`, `nlist` and `in_box` then, and not the attributes below; in the plane also `cells()` and `perimeters`.
 
     Attributes
     ----------
-    volumes, areas, centroids, nlist :
+    volumes, areas, perimeters, centroids, nlist :
         Of cells in a box, as `Periodic` has them, which `in_box` is.
     vertices : (nvertex, ndim) array
         The circumcenters of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
@@ -143,13 +142,18 @@ class Voronoi:
 
     @property
     def volumes(self) -> NDArray[np.float64]:
-        """The volumes of the cells in the box."""
+        """The volumes of the cells in the box; in the plane their areas."""
         return self.in_box.volumes
 
     @property
     def areas(self) -> NDArray[np.float64]:
-        """The areas of their surfaces."""
+        """The areas of their surfaces; in the plane those of the cells."""
         return self.in_box.areas
+
+    @property
+    def perimeters(self) -> NDArray[np.float64]:
+        """The lengths of the borders of cells in the plane."""
+        return self.in_box.perimeters
 
     @property
     def centroids(self) -> NDArray[np.float64]:
@@ -163,11 +167,12 @@ class Voronoi:
 
     def __getattr__(self, name: str) -> Any:
         """Names what there is in a box alone, and what there is not."""
-        if name in {"in_box", "volumes", "areas", "centroids", "nlist"}:
+        if name in {"in_box", "volumes", "areas", "perimeters", "centroids", "nlist"}:
             raise AttributeError(f"{name} is for cells in a box: give box=")
-        made = {"vertices", "ridge_points", "ridge_indptr", "ridge_indices", "point_region"}
+        made = {"_tri", "vertices", "ridge_points", "ridge_indptr", "ridge_indices", "point_region"}
         if "in_box" in self.__dict__ and (name in made or hasattr(type(self), name)):
-            raise AttributeError(f"cells in a box have no {name}: see in_box, its nlist and polyhedra()")
+            name = name.strip("_")
+            raise AttributeError(f"cells in a box have no {name}: see in_box, its nlist, polyhedra() and polygons()")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @cached_property
@@ -227,7 +232,8 @@ class Voronoi:
 
         `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes; a polygon of
         shapely or GeoJSON, or a column of them; or a box of four numbers, the least x and y and the largest. Without it
-        cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the corners of
+        cells are clipped to the box of the points, a twentieth larger. Cells in a box are those of `Periodic.polygons`,
+        and take no region. Sides are contracted as `merge` says, and the corners of
         the polygon kept.
 
         Examples
@@ -237,6 +243,10 @@ class Voronoi:
         >>> len(first), first[0].tolist()
         (1, [[2.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0]])
         """
+        if "in_box" in self.__dict__:
+            if region is not None:
+                raise ValueError("cells in a box end at its walls: leave region out")
+            return self.in_box.polygons()
         if self.ndim != 2 or self.furthest_site:
             raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
         if region is None and not self.npoints:
@@ -244,7 +254,7 @@ class Voronoi:
         rings = _rings(region, self._tri.min_bound, self._tri.max_bound)
         length = length_of(self._merge, *rings)
         corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings, length)
-        return _pieces(corners, ring_starts, starts)
+        return pieces(corners, ring_starts, starts)
 
     def __copy__(self) -> Voronoi:
         """A diagram of its own of the same points."""
@@ -280,11 +290,3 @@ def _rings(
     is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
     parts: list[Any] = [given] if is_one else list(given)
     return [as_points(ring, "region", 2) for ring in parts]
-
-
-def _pieces(
-    corners: NDArray[np.float64], ring_starts: NDArray[np.int64], starts: NDArray[np.int64]
-) -> list[list[NDArray[np.float64]]]:
-    """For each cell its rings."""
-    pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
-    return [pieces[a:b] for a, b in pairwise(starts.tolist())]

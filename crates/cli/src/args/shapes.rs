@@ -109,15 +109,18 @@ impl CameraArgs {
   delone voronoi shops.csv --areas customers -o districts.geojson
   delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
   delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
+  delone voronoi hcp.extxyz --dim 3 --periodic --min-relative-area 1e-6 -o neighbors.csv
+  delone voronoi disks.csv --periodic 40,30 --radii r -o cells.geojson -o cells.svg
+  delone voronoi slab.csv --dim 3 --periodic 20,20,35 --axes xy --origin 0,0,-5 -o cells.vtu
   delone voronoi dump.lammpstrj --dim 3 --periodic --radii radius -o cells.vtu
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
 for each set of sites that are nearest somewhere, `sites` for `site`. CSV has the same in the columns `site,area,wkt`: GIS find the geometry by
 the name `wkt`; several sites are apart by spaces. Well-known text and binary hold the geometries alone, empty ones too.
-In space csv and npy have a row for each input point: volume, area and the three coordinates of the centroid, in csv after `site`. json has an object
+In space csv and npy have a row for each input point: volume, area and the three coordinates of the centroid, in csv after `site`; and the number of neighbors with --min-area. json has an object
 for each input point, with `vertices` and `faces`: the corners of each, `neighbor` (null for the wall of a box, `wall` from 0: low x, high x,
-low y, ...), `area`, and with --periodic `offset`, how many axes of the box away the neighbor is. vtu has polyhedra with the arrays `site`, `volume` and `area`;
+low y, ..., or those of the axes), `area`, and with --periodic `offset`, how many axes of the box away the neighbor is. vtu has polyhedra with the arrays `site`, `volume` and `area`;
 ply and obj have polygons, those between two cells once for each of the two, in ply with `site` and `neighbor`, in obj an object for
 each cell. Cells of a box that repeats are around the points as these were given.")]
 pub(crate) struct VoronoiArgs {

@@ -2,10 +2,13 @@
 
 use delone_predicates::{orient2d, orient3d};
 
+use super::cells::Faces;
+use super::flat::FlatCells;
+use super::walls::{Region, Walls};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, MAX_POINTS_IN_SPACE, VertexId};
-use crate::plane::{Delaunay2, Regular2};
-use crate::space::{Cells3, Delaunay3, Region3, Regular3};
+use crate::plane::{Delaunay2, Power2, Region2, Regular2, Voronoi2};
+use crate::space::{Cells3, Delaunay3, Power3, Region3, Regular3, Voronoi3};
 use crate::triangulation::Triangulation;
 
 /// A kind of triangulation that has a periodic form, [`crate::Periodic`]: of D coordinates, with N corners a simplex.
@@ -27,35 +30,39 @@ pub trait PeriodicKind<const D: usize, const N: usize>:
     fn is_in_plane(facet: &[[f64; D]; D], point: [f64; D]) -> bool;
 }
 
-/// A kind of triangulation of space whose periodic form has cells: [`Delaunay3`] and [`Regular3`].
-pub trait CellularKind: PeriodicKind<3, 4> {
-    /// The cells of some of the vertices: clipped, or those that are bounded.
+/// A kind of triangulation whose periodic form has cells: all of them have.
+pub trait CellularKind<const D: usize, const N: usize>: PeriodicKind<D, N> {
+    /// What cells end at.
     #[doc(hidden)]
-    fn cells_of(
-        &self,
-        region: Option<&Region3>,
-        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
-    ) -> Cells3;
+    type Region: Region<D>;
+
+    /// How cells are kept.
+    #[doc(hidden)]
+    type Cells: Faces<D>;
+
+    /// The cells of so many vertices, which end at walls.
+    #[doc(hidden)]
+    fn cells_of(&self, walls: &Walls<Self::Region, D>, sites: usize) -> Self::Cells;
 }
 
-impl CellularKind for Delaunay3 {
-    fn cells_of(
-        &self,
-        region: Option<&Region3>,
-        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
-    ) -> Cells3 {
-        self.voronoi().cells_of(region, is_wanted)
-    }
+macro_rules! cellular {
+    ($($kind:ident $d:literal $n:literal $region:ident $cells:ident $diagram:ident $of:expr;)*) => { $(
+        impl CellularKind<$d, $n> for $kind {
+            type Region = $region;
+            type Cells = $cells;
+
+            fn cells_of(&self, walls: &Walls<$region, $d>, sites: usize) -> $cells {
+                $of(self.$diagram(), walls, sites)
+            }
+        }
+    )* };
 }
 
-impl CellularKind for Regular3 {
-    fn cells_of(
-        &self,
-        region: Option<&Region3>,
-        is_wanted: impl Fn(VertexId) -> bool + Send + Sync,
-    ) -> Cells3 {
-        self.power().cells_of(region, is_wanted)
-    }
+cellular! {
+    Delaunay2 2 3 Region2 FlatCells voronoi |all: Voronoi2<'_>, walls: &Walls<_, 2>, sites| FlatCells::new(all.clip(&walls.region), walls, sites);
+    Regular2 2 3 Region2 FlatCells power |all: Power2<'_>, walls: &Walls<_, 2>, sites| FlatCells::new(all.clip(&walls.region), walls, sites);
+    Delaunay3 3 4 Region3 Cells3 voronoi |all: Voronoi3<'_>, walls: &Walls<_, 3>, sites| all.cells_of(walls.within(), |v: VertexId| v.index() < sites);
+    Regular3 3 4 Region3 Cells3 power |all: Power3<'_>, walls: &Walls<_, 3>, sites| all.cells_of(walls.within(), |v: VertexId| v.index() < sites);
 }
 
 mod sealed {

@@ -19,13 +19,17 @@
 mod cells;
 mod copies;
 mod faces;
+mod flat;
 mod kinds;
 mod lattice;
 mod quotient;
 mod reduced;
 mod walls;
 
-pub use cells::{AcrossPeriodic3, PeriodicCell3, PeriodicCells3, PeriodicFace3};
+pub use cells::{
+    AcrossPeriodic, AcrossPeriodic2, AcrossPeriodic3, PeriodicCell, PeriodicCell2, PeriodicCell3,
+    PeriodicCells, PeriodicCells2, PeriodicCells3, PeriodicFace, PeriodicFace3, PeriodicSide2,
+};
 pub use kinds::{CellularKind, PeriodicKind};
 pub use lattice::{Grid, Lattice, Lattice2, Lattice3};
 

@@ -66,13 +66,17 @@ fn standing(corners: &[Corner]) -> Vec<Corner> {
     (0..corners.len()).map(from).min().unwrap_or_default()
 }
 
-fn set<T: CellularKind>(t: &Periodic<T, 3, 4>, name: impl Fn(usize) -> usize) -> BTreeSet<Vec<Corner>> {
+fn set<T: CellularKind<3, 4>>(t: &Periodic<T, 3, 4>, name: impl Fn(usize) -> usize) -> BTreeSet<Vec<Corner>> {
     let corner = |(site, offset): Image<3>| (name(site.index()), offset);
     t.simplices().map(|corners| standing(&corners.map(corner))).collect()
 }
 
 /// Whether no copy near the box has less power to a simplex than its corners have.
-fn judge_spheres<T: CellularKind>(t: &Periodic<T, 3, 4>, weights: &[f64], periodic: [bool; 3]) -> Judgement {
+fn judge_spheres<T: CellularKind<3, 4>>(
+    t: &Periodic<T, 3, 4>,
+    weights: &[f64],
+    periodic: [bool; 3],
+) -> Judgement {
     let twins: BTreeSet<VertexId> = t.duplicates().map(|twin| twin.0).collect();
     let sites: Vec<VertexId> = (0..weights.len()).map(VertexId::new).filter(|v| !twins.contains(v)).collect();
     for corners in t.simplices() {
@@ -94,7 +98,7 @@ fn judge_spheres<T: CellularKind>(t: &Periodic<T, 3, 4>, weights: &[f64], period
     Ok(())
 }
 
-fn judge_kind<T: CellularKind>(
+fn judge_kind<T: CellularKind<3, 4>>(
     points: &[[f64; 3]],
     weights: &[f64],
     (axes, periodic, grid): ([[f64; 3]; 3], [bool; 3], Grid),

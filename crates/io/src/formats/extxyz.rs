@@ -1,6 +1,6 @@
 //! Extended XYZ: a number of atoms, a line of `key=value` with `Lattice` and `Properties`, and a row for each atom; then the next frame.
 //!
-//! `Lattice` has the three axes one after the other, `pbc` tells along which it repeats (all, if it is not there), and `Properties` names the columns as
+//! `Lattice` has the three axes one after the other, `pbc` tells along which it repeats (all, if it is not there), `Origin` where the box begins, and `Properties` names the columns as
 //! `name:type:count`. Without it, as in plain XYZ, they are `species:S:1:pos:R:3`.
 //!
 //! Source: the specification of libAtoms/extxyz.
@@ -28,8 +28,11 @@ pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Clo
     let pairs = pairs(&about)?;
     let of = |key: &str| pairs.iter().find(|pair| pair.0.eq_ignore_ascii_case(key)).map(|pair| &pair.1[..]);
     columns(&about, of("Properties").unwrap_or(PLAIN), &mut atoms)?;
-    let cell = of("Lattice").map(|text| cell(&about, text, of("pbc"))).transpose()?;
-    let is_known = |key: &str| ["lattice", "properties", "pbc"].contains(&key.to_lowercase().as_str());
+    let cell = of("Lattice").map(|text| cell(&about, text, of("pbc"), of("Origin"))).transpose()?;
+    // Without a box there is nothing that begins.
+    let known = ["lattice", "properties", "pbc", "origin"];
+    let known = &known[..if cell.is_some() { 4 } else { 3 }];
+    let is_known = |key: &str| known.contains(&key.to_lowercase().as_str());
     let others: Vec<&str> = pairs.iter().map(|pair| &pair.0[..]).filter(|key| !is_known(key)).collect();
     let others = (!others.is_empty()).then(|| listed(others.into_iter()));
     for _ in 0..count {
@@ -110,8 +113,8 @@ fn columns(line: &Line, properties: &str, atoms: &mut Atoms) -> Result<(), Error
     if has_places { Ok(()) } else { Err(line.error("Properties name no pos")) }
 }
 
-/// The box, by its lattice and along which axes that repeats.
-fn cell(line: &Line, lattice: &str, pbc: Option<&str>) -> Result<UnitCell, Error> {
+/// The box, by its lattice, along which axes that repeats, and where it begins.
+fn cell(line: &Line, lattice: &str, pbc: Option<&str>, origin: Option<&str>) -> Result<UnitCell, Error> {
     let words = |text: &str| -> Vec<String> {
         text.split(|c: char| c.is_whitespace() || ",[]".contains(c))
             .filter(|w| !w.is_empty())
@@ -140,7 +143,17 @@ fn cell(line: &Line, lattice: &str, pbc: Option<&str>) -> Result<UnitCell, Error
             };
         }
     }
-    Ok(UnitCell { axes, periodic })
+    let mut begins = [0.0; 3];
+    if let Some(origin) = origin {
+        let numbers = words(origin);
+        if numbers.len() != 3 {
+            return Err(line.error(format!("an Origin has 3 numbers, not {}", numbers.len())));
+        }
+        for (number, word) in begins.iter_mut().zip(&numbers) {
+            *number = line.number(Some(word), "a number of the Origin")?;
+        }
+    }
+    Ok(UnitCell { axes, periodic, origin: begins })
 }
 
 #[cfg(test)]
@@ -163,7 +176,15 @@ mod tests {
         assert_eq!((cloud.xy, cloud.z), (vec![[0.5, 1.0], [5.0, 4.0]], Some(vec![2.0, 3.0])));
         let cell = cloud.cell.expect("a box");
         assert_eq!(cell.axes, [[5.0, 0.0, 0.0], [1.0, 4.0, 0.0], [0.0, 0.0, 3.0]]);
-        assert_eq!(cell.periodic, [true, false, true]);
+        assert_eq!((cell.periodic, cell.origin), ([true, false, true], [0.0; 3]));
+        assert!(
+            cloud.remarks[0].ends_with("repeats along the first and the third alone"),
+            "{:?}",
+            cloud.remarks
+        );
+        let moved = of(&FRAME.replace("energy=-1.5", "Origin=\"-1 0.5 2\"")).expect("a frame");
+        assert_eq!((moved.cell.expect("a box").origin, moved.losses.len()), ([-1.0, 0.5, 2.0], 0));
+        assert!(moved.remarks[0].contains(", begins at (-1.0, 0.5, 2.0) and repeats"), "{:?}", moved.remarks);
         let table = &cloud.features.table;
         assert_eq!(table.names(), ["species", "radius", "force_1", "force_2", "fixed"]);
         assert_eq!((table.value(1, 0), table.value(0, 4)), (Value::Text("O"), Value::Bool(true)));
@@ -191,6 +212,7 @@ mod tests {
             (FRAME.replace("pos:R:3", "place:R:3"), "line 2: Properties name no pos"),
             (FRAME.replace("species:S:1", "species:S"), "line 2: Properties are name:type:count"),
             (FRAME.replace("\"T F T\"", "\"T F\""), "line 2: pbc has three flags"),
+            (FRAME.replace("energy", "Origin"), "line 2: an Origin has 3 numbers, not 1"),
             (FRAME.replace("T F T\"", "T F T"), "line 2: the value of \"pbc\" is not closed"),
             ("2 3\n".to_owned(), "line 1: the first line of XYZ"),
             ("2\n".to_owned(), "the file ends before the second line"),

@@ -6,7 +6,7 @@ use super::geojson::Properties;
 use crate::polyhedra::{Beyond, Polyhedra};
 
 /// The names that attributes of sites do not take.
-const OURS: [&str; 7] = ["site", "position", "volume", "area", "centroid", "vertices", "faces"];
+const OURS: [&str; 8] = ["site", "position", "volume", "area", "centroid", "vertices", "faces", "neighbors"];
 
 /// A number, if JSON has it.
 fn number(x: f64) -> String {
@@ -18,14 +18,17 @@ fn place(p: [f64; 3]) -> String {
 }
 
 pub(crate) fn write(out: &mut dyn Write, cells: &Polyhedra) -> io::Result<()> {
-    let properties = cells.features.map(|features| Properties::beside(&features.table, &OURS));
+    let ours = if cells.least.is_some() { &OURS[..] } else { &OURS[..7] };
+    let properties = cells.features.map(|features| Properties::beside(&features.table, ours));
     write!(out, "[")?;
     for (site, cell) in cells.cells.iter().enumerate() {
         let [volume, area] = [cell.volume, cell.area].map(number);
         let [position, centroid] =
             [Some(cells.sites[site]), cell.centroid].map(|p| p.map_or_else(|| "null".to_owned(), place));
         write!(out, "{}\n{{\"site\":{site},\"position\":{position}", if site == 0 { "" } else { "," })?;
-        write!(out, ",\"volume\":{volume},\"area\":{area},\"centroid\":{centroid},\"vertices\":[")?;
+        write!(out, ",\"volume\":{volume},\"area\":{area},\"centroid\":{centroid}")?;
+        cells.neighbors(site).iter().try_for_each(|count| write!(out, ",\"neighbors\":{count}"))?;
+        write!(out, ",\"vertices\":[")?;
         let corners = cells.corners(site);
         for (i, &corner) in corners.iter().enumerate() {
             write!(out, "{}{}", if i == 0 { "" } else { "," }, place(cells.vertices[corner as usize]))?;

@@ -11,18 +11,11 @@ use super::lines::{Line, Lines};
 use crate::cell::UnitCell;
 use crate::{Cloud, Error, ReadOptions, Source};
 
-/// A box, and where it begins.
-#[derive(Clone, Copy)]
-struct Place {
-    cell: UnitCell,
-    origin: [f64; 3],
-}
-
 /// Reads the first frame.
 pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
     let mut atoms = Atoms::new(options);
-    let (mut count, mut place) = (None, None);
+    let (mut count, mut cell) = (None, None);
     let mut is_empty = true;
     while let Some(line) = lines.next_whole()? {
         is_empty = false;
@@ -34,23 +27,23 @@ pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Clo
             count = Some(line.number::<u64>(line.text.split_whitespace().next(), "the number of atoms")?);
         } else if let Some(kind) = item.strip_prefix("BOX BOUNDS") {
             let kind = kind.trim().to_owned();
-            place = Some(read_box(&mut lines, &kind)?);
+            cell = Some(read_box(&mut lines, &kind)?);
         } else if let Some(names) = item.strip_prefix("ATOMS") {
             let count = count.ok_or_else(|| line.error("the number of atoms is not told before"))?;
             let is_scaled = columns(&line, names, &mut atoms)?;
-            let scale = place.filter(|_| is_scaled);
-            if is_scaled && place.is_none() {
+            let scale = cell.filter(|_| is_scaled);
+            if is_scaled && cell.is_none() {
                 return Err(line.error("coordinates are parts of a box that is not told before"));
             }
             for _ in 0..count {
                 let line = expect(&mut lines, "an atom")?;
-                atoms.row(&line, |p| scale.map_or(p, |place| place.at(p)))?;
+                atoms.row(&line, |p| scale.map_or(p, |cell| at(&cell, p)))?;
             }
             let mut frames = 0;
             while let Some(line) = lines.next_whole()? {
                 frames += usize::from(line.text.trim_start().starts_with("ITEM: TIMESTEP"));
             }
-            return Ok(atoms.end(place.map(|place| place.cell), frames));
+            return Ok(atoms.end(cell, frames));
         } else {
             // The step, the time, the units: a line each.
             expect(&mut lines, "the line after ITEM:")?;
@@ -59,14 +52,12 @@ pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Clo
     if is_empty { Ok(atoms.end(None, 0)) } else { Err(Error::Truncated("before ITEM: ATOMS".to_owned())) }
 }
 
-impl Place {
-    /// Where the parts of the axes lead.
-    fn at(&self, parts: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| {
-            let along = |axis: usize| parts[axis] * self.cell.axes[axis][k];
-            self.origin[k] + along(0) + along(1) + along(2)
-        })
-    }
+/// Where the parts of the axes lead.
+fn at(cell: &UnitCell, parts: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let along = |axis: usize| parts[axis] * cell.axes[axis][k];
+        cell.origin[k] + along(0) + along(1) + along(2)
+    })
 }
 
 /// The next line.
@@ -75,7 +66,7 @@ fn expect<'a>(lines: &'a mut Lines, what: &str) -> Result<Line<'a>, Error> {
 }
 
 /// The box, of the kind that is told in the line before.
-fn read_box(lines: &mut Lines, kind: &str) -> Result<Place, Error> {
+fn read_box(lines: &mut Lines, kind: &str) -> Result<UnitCell, Error> {
     let words: Vec<&str> = kind.split_whitespace().collect();
     let is_tilted = words.starts_with(&["xy", "xz", "yz"]);
     let is_general = words.starts_with(&["abc", "origin"]);
@@ -94,7 +85,7 @@ fn read_box(lines: &mut Lines, kind: &str) -> Result<Place, Error> {
     let [x, y, z] = rows;
     if is_general {
         let axes = [x, y, z].map(|[a, b, c, _]| [a, b, c]);
-        return Ok(Place { cell: UnitCell { axes, periodic }, origin: [x[3], y[3], z[3]] });
+        return Ok(UnitCell { axes, periodic, origin: [x[3], y[3], z[3]] });
     }
     let [xy, xz, yz] = [x[2], y[2], z[2]];
     // The bounds are those of the box around the tilted one.
@@ -103,7 +94,7 @@ fn read_box(lines: &mut Lines, kind: &str) -> Result<Place, Error> {
     let origin = [x[0] - least, y[0] - yz.min(0.0), z[0]];
     let sides = [x[1] - most - origin[0], y[1] - yz.max(0.0) - origin[1], z[1] - origin[2]];
     let axes = [[sides[0], 0.0, 0.0], [xy, sides[1], 0.0], [xz, yz, sides[2]]];
-    Ok(Place { cell: UnitCell { axes, periodic }, origin })
+    Ok(UnitCell { axes, periodic, origin })
 }
 
 /// Names the columns; says whether coordinates are parts of the box.
@@ -153,7 +144,7 @@ mod tests {
         let cell = cloud.cell.expect("a box");
         // From -1 - min(0, 2, -1, 1) to 7 - max(0, 2, -1, 1); and up to 5 - 0.5.
         assert_eq!(cell.axes, [[5.0, 0.0, 0.0], [2.0, 4.5, 0.0], [-1.0, 0.5, 4.0]]);
-        assert_eq!(cell.periodic, [true, true, false]);
+        assert_eq!((cell.periodic, cell.origin), ([true, true, false], [0.0; 3]));
         assert_eq!(cloud.features.table.names(), ["id", "type", "radius"]);
         assert_eq!(cloud.features.table.value(1, 2), Value::Number(0.5));
         assert_eq!(cloud.losses, ["the first frame is read, 2 more are left out"]);
@@ -175,11 +166,12 @@ mod tests {
         );
         let cloud = of(&general.replace(" x y z ", " xsu ysu zsu ")).expect("a dump");
         assert_eq!((cloud.xy[0], cloud.z), ([9.5, 10.0], Some(vec![10.5, 25.0])));
+        assert_eq!(cloud.cell.expect("a box").origin, [9.0, 8.0, 7.0]);
         let plain = DUMP.replace("xy xz yz pp pp ff\n-1 7 2\n0 5 -1\n0 4 0.5", "\n-1 7\n0 5\n0 4");
         let cell = of(&plain).expect("an old dump").cell.expect("a box");
         assert_eq!(
-            (cell.axes, cell.periodic),
-            ([[8.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 4.0]], [true; 3])
+            (cell.axes, cell.periodic, cell.origin),
+            ([[8.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 4.0]], [true; 3], [-1.0, 0.0, 0.0])
         );
     }
 

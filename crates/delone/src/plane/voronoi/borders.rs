@@ -32,6 +32,26 @@ impl Side {
 }
 
 impl Cells2 {
+    /// For each corner, ring by ring, the cell on the other side of the side that leaves it; the ghost where the region ends. Sides
+    /// that rounding has left no length have none either.
+    pub(crate) fn across(&self) -> Vec<VertexId> {
+        let mut sides: Vec<(Side, usize)> = Vec::with_capacity(self.corners.len());
+        for site in (0..self.sites.len()).map(VertexId::new) {
+            for (ring, start) in self.rings(site).zip(self.ring_starts(site)) {
+                sides.extend(ring.sides().map(|ends| Side::of(site, ends)).zip(start..));
+            }
+        }
+        sorting::by(&mut sides, |a, b| a.cmp(b));
+        let mut across = vec![VertexId::GHOST; self.corners.len()];
+        for same in sides.chunk_by(|a, b| a.0.ends == b.0.ends) {
+            let (right, left) = same.split_at(same.partition_point(|(side, _)| !side.is_left));
+            for ((a, at_a), (b, at_b)) in right.iter().zip(left) {
+                (across[*at_a], across[*at_b]) = (b.site, a.site);
+            }
+        }
+        across
+    }
+
     /// The pairs of cells that share a side after clipping, and the length of what they share, in coordinate units: the smaller site first,
     /// sorted. Cells that only touch in a corner are none; for cells that are not clipped, [`crate::Voronoi2::neighbors`] tells. Sides are
     /// those between rounded corners: a border that rounding leaves no length is none.

@@ -36,6 +36,20 @@ pub struct Ring<'a> {
 }
 
 impl Cells2 {
+    /// Cells by the rings of each, with vertices of their own.
+    pub(crate) fn of_rings(cells: impl Iterator<Item = Vec<Vec<[f64; 2]>>>) -> Self {
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for rings in cells {
+            all.sites.push([all.starts.len() - 1, rings.len()].map(|n| n as u32));
+            for ring in rings {
+                all.vertices.extend(ring);
+                all.starts.push(all.vertices.len() as u32);
+            }
+        }
+        all.corners = (0..all.vertices.len() as u32).collect();
+        all
+    }
+
     /// The rings of one after the other.
     pub(super) fn all(&self) -> Cell2<'_> {
         Cell2 { ends: &self.starts, corners: &self.corners, vertices: &self.vertices }
@@ -46,6 +60,12 @@ impl Cells2 {
         let [first, count] = self.sites.get(site.index()).copied().unwrap_or_default();
         let ends = &self.starts[first as usize..][..count as usize + usize::from(count > 0)];
         Cell2 { ends, corners: &self.corners, vertices: &self.vertices }
+    }
+
+    /// The index of the first corner of each ring of a cell, among those of all.
+    pub(crate) fn ring_starts(&self, site: VertexId) -> impl Iterator<Item = usize> + '_ {
+        let [first, count] = self.sites.get(site.index()).copied().unwrap_or_default();
+        self.starts[first as usize..][..count as usize].iter().map(|&start| start as usize)
     }
 
     /// The rings of a cell: none for an id that is no vertex, and for a cell outside of the region.

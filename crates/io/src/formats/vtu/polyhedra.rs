@@ -11,7 +11,7 @@ use crate::xml::escaped;
 const POLYHEDRON: u8 = 42;
 
 /// The arrays of cells that are ours.
-const OURS: [&str; 3] = ["site", "volume", "area"];
+const OURS: [&str; 4] = ["site", "volume", "area", "neighbors"];
 
 pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Result<Remark> {
     // By the number of their corners, then by site: as meshio sorts them, which takes no heed of their arrays.
@@ -20,7 +20,8 @@ pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Res
     sites.sort_unstable();
     let present = || sites.iter().map(|&(_, site)| site);
     let table = cells.features.map(|features| &features.table);
-    let attributes = Attributes::of(table, &OURS, || present().map(|site| cells.row(site)).collect());
+    let ours = if cells.least.is_some() { &OURS[..] } else { &OURS[..3] };
+    let attributes = Attributes::of(table, ours, || present().map(|site| cells.row(site)).collect());
     let count = sites.len();
     // The length of the list of faces of a cell: their number, and each with its number of corners.
     let list = |site| 1 + cells.faces(site).map(|(_, ring)| 1 + ring.len()).sum::<usize>();
@@ -44,7 +45,7 @@ pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Res
 <CellData>"#,
         starts[0]
     )?;
-    let names = OURS.iter().copied().chain(attributes.columns.iter().map(|column| column.1.as_str()));
+    let names = ours.iter().copied().chain(attributes.columns.iter().map(|column| column.1.as_str()));
     for (k, name) in names.enumerate() {
         let (kind, name, start) = (if k == 0 { "Int64" } else { "Float64" }, escaped(name), begin(8 * count));
         write!(out, r#"<DataArray type="{kind}" Name="{name}" format="appended" offset="{start}"/>"#)?;
@@ -74,6 +75,10 @@ pub(crate) fn write_polyhedra(out: &mut dyn Write, cells: &Polyhedra) -> io::Res
     array(out, count, present().map(whole))?;
     array(out, count, present().map(|site| cells.cells[site].volume.to_le_bytes()))?;
     array(out, count, present().map(|site| cells.cells[site].area.to_le_bytes()))?;
+    if cells.least.is_some() {
+        let numbers = present().map(|site| cells.neighbors(site).unwrap_or_default() as f64);
+        array(out, count, numbers.map(f64::to_le_bytes))?;
+    }
     for &(column, _) in &attributes.columns {
         array(out, count, attributes.values(column).map(f64::to_le_bytes))?;
     }
