@@ -53,6 +53,9 @@ $delone hull data/autzen_trim.laz --dim 3 -o $here/tile.png --size 960
 # Tetrahedra of a ball, cut open.
 $delone generate ball -n 1500 --seed 1 -o "$work/ball.csv"
 $delone draw "$work/ball.csv" --dim 3 --view -60,40 --cut 0,0,1,0.1 -o $here/ball.png --size 640
+# Cells of space, cut open.
+$delone generate ball -n 400 --seed 2 -o "$work/foam.csv"
+$delone voronoi "$work/foam.csv" --dim 3 --clip hull --cut 1,-1,0.6,0.1 --view -40,30 -o $here/foam.png --size 640
 # Imprecise points, and moving ones.
 $delone generate disks -n 60 --seed 3 -o "$work/disks.csv"
 $delone draw "$work/disks.csv" --disks 1 --hints -o $here/hints.png --size 700

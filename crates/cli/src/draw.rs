@@ -2,7 +2,7 @@
 
 use delone::surface::Duplicates;
 use delone::{Coordinates, Delaunay2, HintOrder, Hints2, VertexId};
-use delone_io::{Contents, Cut, Trim, picture, write_mesh};
+use delone_io::{Contents, Trim, picture, write_mesh};
 
 use crate::args::{Choice, DrawArgs};
 use crate::message::Failure;
@@ -25,7 +25,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
     files::check_formats(&outputs, &[Contents::Pictures])?;
     let mut options = options(args, R::is_space())?;
-    let cut = cut(args)?;
+    let cut = args.cut.cut()?;
     if args.weights.given().is_some() {
         if by_points || args.graph.is_given() || cut.is_some() {
             return Err(Failure::usage(
@@ -77,7 +77,7 @@ fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure>
             "leave them or --dim 3 out",
         ));
     }
-    if !is_space && (!args.cut.is_empty() || args.wireframe) {
+    if !is_space && (args.cut.is_given() || args.wireframe) {
         return Err(Failure::usage("--cut and --wireframe are for space", "add --dim 3, or leave them out"));
     }
     let camera = if is_space { args.camera.camera()? } else { picture::Camera::default() };
@@ -91,20 +91,6 @@ fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure>
         disks: args.disks,
         ..picture::Options::default()
     })
-}
-
-/// The cut of a drawing.
-fn cut(args: &DrawArgs) -> Result<Option<Cut>, Failure> {
-    match args.cut[..] {
-        [] => Ok(None),
-        [a, b, c, offset] if args.cut.iter().all(|x| x.is_finite()) => {
-            Ok(Some(Cut { normal: [a, b, c], offset }))
-        }
-        _ => Err(Failure::usage(
-            "--cut takes four numbers",
-            "as in --cut 1,0,0,0.5: what has x above 0.5 is taken away",
-        )),
-    }
 }
 
 fn flat<P: Coordinates>(points: &[P]) -> Vec<[f64; 2]> {

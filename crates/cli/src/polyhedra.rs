@@ -7,9 +7,9 @@ use delone::{
     Bounds, Cells3, CellularKind, DecimalGrid, Delaunay3, Lattice3, Periodic, Periodic3, PeriodicRegular3,
     Region3,
 };
-use delone_io::{Cloud, Contents, Format, Polyhedra, write_polyhedra};
+use delone_io::{Cloud, Contents, Cut, Format, Polyhedra, picture, write_polyhedra};
 
-use crate::args::{GridChoice, VoronoiArgs};
+use crate::args::{CameraArgs, GridChoice, VoronoiArgs};
 use crate::clip::is_polygon;
 use crate::files;
 use crate::message::{Failure, note};
@@ -33,6 +33,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
             "neighbors are counted, and no output has room for their numbers",
             "write csv, json or vtu, or leave --min-area and --min-relative-area out",
         ));
+    }
+    if args.cut.is_given() && !outputs.iter().any(|(_, format)| matches!(format, Format::Svg | Format::Png)) {
+        return Err(Failure::usage("--cut is for pictures", "write svg or png, or leave --cut out"));
     }
     files::keep_attributes(Contents::Polyhedra);
     let mut stats = Stats::start();
@@ -198,9 +201,17 @@ impl<'a> Work<'a> {
         self.write(cells, stats)
     }
 
+    /// What pictures show, and from where.
+    fn picture(&self) -> Result<(Option<Cut>, picture::Options), Failure> {
+        let CameraArgs { size, .. } = self.args.camera;
+        let camera = self.args.camera.camera()?;
+        Ok((self.args.cut.cut()?, picture::Options { size, camera, ..picture::Options::default() }))
+    }
+
     fn write(&self, mut cells: Polyhedra<'a>, stats: &mut Stats) -> Result<(), Failure> {
         cells.crs = self.about.crs.as_ref();
         cells.least = self.args.space.least();
+        (cells.cut, cells.picture) = self.picture()?;
         cells.features = files::are_attributes_kept().then_some(&self.about.features);
         stats.set("cells", cells.count());
         stats.set("volume", cells.volume());

@@ -55,7 +55,7 @@ pub(crate) fn run(
     let diagram =
         Diagram { triangulation: &r, cells: &cells, crs: about.crs.as_ref(), features: Some(&features) };
     for (path, format) in outputs {
-        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
+        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.camera.size))?;
     }
     if let (Some(path), Some(format)) = (&args.sites, sites_format) {
         files::write(path, |out| delone_io::write_points(out, format, &points))?;

@@ -164,7 +164,9 @@ impl Work<'_> {
         };
         let _phase = Phase::start(self.quiet, "writing");
         for (path, format) in self.outputs {
-            files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, self.args.size))?;
+            files::write(path, |out| {
+                delone_io::write_diagram(out, *format, &diagram, self.args.camera.size)
+            })?;
         }
         Ok(())
     }

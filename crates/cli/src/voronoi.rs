@@ -27,6 +27,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return polyhedra::run(args, quiet);
     }
     args.space.refuse_in_plane()?;
+    if args.cut.is_given() {
+        return Err(Failure::usage("--cut is for space", "add --dim 3, or leave it out"));
+    }
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {
@@ -66,7 +69,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
             region: &region,
             merge: merge(args, &region, &mut stats),
             crs: about.crs.as_ref(),
-            size: args.size,
+            size: args.camera.size,
         };
         orders::write(&picture, &triangulation, &outputs, &mut stats, quiet)?;
         if let (Some(path), Some(format)) = (&args.sites, sites_format) {
@@ -107,7 +110,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         features: Some(&features),
     };
     for (path, format) in &outputs {
-        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
+        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.camera.size))?;
     }
     if let (Some(path), Some(format)) = (&args.sites, sites_format) {
         files::write(path, |out| delone_io::write_points(out, format, triangulation.points()))?;

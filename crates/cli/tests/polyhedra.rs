@@ -266,7 +266,7 @@ fn wrong_usage_is_named() {
     let fail =
         |options: &str, status, word: &str| place.fail(&format!("voronoi p.csv {options}"), status, word);
     fail("--dim 3 -o c.geojson", 2, "Voronoi cells in space are not written to geojson files");
-    fail("--dim 3 -o c.svg", 2, "Voronoi cells in space are not written to svg files");
+    fail("--dim 3 -o c.stl", 2, "Voronoi cells in space are not written to stl files");
     fail("-o c.vtu", 2, "Voronoi cells are not written to vtu files");
     fail("--dim 3 -o c.vtu --wkt lines", 2, "--wkt is for outputs of well-known text");
     fail("--grid auto -o c.csv", 2, "--grid is for cells in space, or in boxes");
@@ -399,4 +399,24 @@ fn boxes_of_files_are_taken() {
     fail("p.extxyz --dim 3 --periodic", 1, "it tells no box");
     fail("a.lammpstrj m.lammpstrj --dim 3 --periodic", 1, "its box is another one");
     place.fail("-q --strict voronoi a.lammpstrj --dim 3 --periodic -o x.json", 1, "one more is left out");
+}
+
+/// A picture of all cells, and of what a plane leaves of them, with its inside in another color.
+#[test]
+fn pictures_of_cells_are_cut_open() {
+    const FACE: &str = "Z\"/>";
+    let place = Place::new();
+    let points: Vec<String> = (0..64).map(|i| format!("{},{},{}", i % 4, i / 4 % 4, i / 16)).collect();
+    place.file("points.csv", format!("{}\n", points.join("\n")));
+    let shown = |options: &str| {
+        place.succeed(&format!("-q voronoi points.csv --dim 3 --box -0.5,-0.5,-0.5,3.5,3.5,3.5 {options}"));
+        place.read("cells.svg").matches(FACE).count()
+    };
+    // Three sides of a cube of 16 squares each are turned to the viewer, cut or not.
+    assert_eq!(shown("-o cells.svg"), 48);
+    assert_eq!(shown("-o cells.svg --cut 0,0,1,1.5"), 32);
+    place.succeed("-q voronoi points.csv --dim 3 --cut 0,0,1,1.5 -o cells.png --size 100");
+    place.fail("voronoi points.csv --dim 3 --cut 0,0,1,1.5 -o cells.csv", 2, "--cut is for pictures");
+    place.fail("voronoi points.csv --cut 0,0,1,1.5 -o cells.svg", 2, "--cut is for space");
+    place.fail("voronoi points.csv --dim 3 --cut 0,0,1 -o cells.svg", 2, "--cut takes four numbers");
 }

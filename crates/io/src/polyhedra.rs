@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use delone::{Across3, AcrossPeriodic3, Cells3, CellularKind, DecimalGrid, PeriodicCells3, VertexId};
 
-use crate::{Crs, Features};
+use crate::{Crs, Cut, Features, Solid, picture};
 
 /// The cells of all points of an input, in its order. Those of points that have no cell have no faces: of points that equal an earlier one,
 /// of hidden sites, and where nothing is left in the region.
@@ -21,6 +21,10 @@ pub struct Polyhedra<'a> {
     pub crs: Option<&'a Crs>,
     /// Which faces count as those of neighbors: CSV, JSON and VTU have their number if this is told.
     pub least: Option<LeastFace>,
+    /// Of pictures, the plane beyond which cells are taken away, and how to draw what is left.
+    pub cut: Option<Cut>,
+    /// See [`Self::cut`].
+    pub picture: picture::Options,
     /// The attributes of the points, which their cells have in CSV, JSON and, if they are numbers, VTU.
     pub features: Option<&'a Features>,
 }
@@ -66,7 +70,18 @@ impl<'a> Polyhedra<'a> {
     fn new(sites: &'a [[f64; 3]]) -> Self {
         let (vertices, cells, faces, corners) =
             (Vec::new(), Vec::with_capacity(sites.len()), Vec::new(), Vec::new());
-        Self { sites, vertices, cells, faces, corners, crs: None, least: None, features: None }
+        Self {
+            sites,
+            vertices,
+            cells,
+            faces,
+            corners,
+            crs: None,
+            least: None,
+            cut: None,
+            picture: picture::Options::default(),
+            features: None,
+        }
     }
 
     /// The cells of points in a region. If they were made of integers on a grid, they are in coordinate units again.
@@ -131,6 +146,31 @@ impl<'a> Polyhedra<'a> {
             all.end_cell(cell.volume(), cell.area(), cell.centroid());
         }
         all
+    }
+
+    /// The surface of all cells together that the cut leaves.
+    pub(crate) fn solid(&self) -> Solid {
+        let is_left = |site: usize| {
+            let middle = self.cells[site].centroid.unwrap_or(self.sites[site]);
+            let along = |cut: Cut| (0..3).map(|k| cut.normal[k] * middle[k]).sum::<f64>();
+            self.cut.is_none_or(|cut| along(cut) <= cut.offset)
+        };
+        let left: Vec<bool> = (0..self.cells.len()).map(is_left).collect();
+        let mut solid = Solid { points: self.vertices.clone(), ..Solid::default() };
+        for site in self.present().filter(|&site| left[site]) {
+            for (face, corners) in self.faces(site) {
+                // Copies are not drawn.
+                let beyond = match face.beyond {
+                    Beyond::Site(other) | Beyond::Copy(other, [0, 0, 0]) => Some(other),
+                    Beyond::Copy(..) | Beyond::Wall(_) => None,
+                };
+                if beyond.is_none_or(|other| !left[other]) {
+                    solid.faces.push(corners.iter().map(|&i| i as usize).collect());
+                    solid.laid_open.push(beyond.is_some());
+                }
+            }
+        }
+        solid
     }
 
     fn end_face(&mut self, beyond: Beyond, area: f64) {

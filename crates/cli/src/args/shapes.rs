@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use delone::MERGE_AUTO;
+use delone_io::Cut;
 use delone_io::picture::Camera;
 use delone_io::{Contents, Format};
 
@@ -98,6 +99,33 @@ impl CameraArgs {
     }
 }
 
+/// What is taken away from a picture in space.
+#[derive(Debug, Args)]
+pub(crate) struct CutArgs {
+    /// In space, take away the tetrahedra, or in pictures the cells, whose middle is beyond the plane A x + B y + C z = D.
+    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    cut: Vec<f64>,
+}
+
+impl CutArgs {
+    pub(crate) fn is_given(&self) -> bool {
+        !self.cut.is_empty()
+    }
+
+    pub(crate) fn cut(&self) -> Result<Option<Cut>, Failure> {
+        match self.cut[..] {
+            [] => Ok(None),
+            [a, b, c, offset] if self.cut.iter().all(|x| x.is_finite()) => {
+                Ok(Some(Cut { normal: [a, b, c], offset }))
+            }
+            _ => Err(Failure::usage(
+                "--cut takes four numbers",
+                "as in --cut 1,0,0,0.5: what has x above 0.5 is taken away",
+            )),
+        }
+    }
+}
+
 /// Voronoi cells.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -113,6 +141,7 @@ impl CameraArgs {
   delone voronoi disks.csv --periodic 40,30 --radii r -o cells.geojson -o cells.svg
   delone voronoi slab.csv --dim 3 --periodic 20,20,35 --axes xy --origin 0,0,-5 -o cells.vtu
   delone voronoi dump.lammpstrj --dim 3 --periodic --radii radius -o cells.vtu
+  delone voronoi foam.csv --dim 3 --cut 1,0,0,0.5 --view 30,25 -o inside.png
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
@@ -122,7 +151,7 @@ In space csv and npy have a row for each input point: volume, area and the three
 for each input point, with `vertices` and `faces`: the corners of each, `neighbor` (null for the wall of a box, `wall` from 0: low x, high x,
 low y, ..., or those of the axes), `area`, and with --periodic `offset`, how many axes of the box away the neighbor is. vtu has polyhedra with the arrays `site`, `volume` and `area`;
 ply and obj have polygons, those between two cells once for each of the two, in ply with `site` and `neighbor`, in obj an object for
-each cell. Cells of a box that repeats are around the points as these were given.")]
+each cell. svg and png are pictures, with --cut of what is left. Cells of a box that repeats are around the points as these were given.")]
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -167,9 +196,10 @@ pub(crate) struct VoronoiArgs {
     pub(crate) areas: Option<String>,
     #[command(flatten)]
     pub(crate) space: PeriodicArgs,
-    /// The longer side of pictures in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
-    pub(crate) size: u32,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    #[command(flatten)]
+    pub(crate) cut: CutArgs,
 }
 
 /// The length up to which sides are contracted.
@@ -224,9 +254,8 @@ pub(crate) struct DrawArgs {
     pub(crate) dim: DimArgs,
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
-    /// In space, take away the tetrahedra whose middle is beyond the plane A x + B y + C z = D.
-    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
-    pub(crate) cut: Vec<f64>,
+    #[command(flatten)]
+    pub(crate) cut: CutArgs,
     /// In space, draw edges alone, those behind too.
     #[arg(long)]
     pub(crate) wireframe: bool,

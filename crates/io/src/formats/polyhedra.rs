@@ -4,13 +4,14 @@ use std::io::{self, Write};
 
 use super::{json, npy, obj, ply, vtu};
 use crate::polyhedra::Polyhedra;
-use crate::{Contents, Direction, Error, Format, Remark, Value};
+use crate::{Contents, Direction, Error, Format, Remark, Value, picture};
 
 /// Writes cells of space.
 ///
-/// CSV and NPY have a row for each point, in the order of the input: in CSV `site`, `volume`, `area`, the centroid, `neighbors` if [`Polyhedra::least`] is told, and the attributes of the point, in NPY the
-/// numbers alone. JSON has an object for each point, with the corners and faces of its cell. VTU, PLY and OBJ have the cells that have faces: in VTU
-/// polyhedra, in PLY and OBJ polygons, those between two cells once for each, so that every cell is a closed surface.
+/// CSV and NPY have a row for each point, in the order of the input: in CSV `site`, `volume`, `area`, the centroid, `neighbors` if
+/// [`Polyhedra::least`] is told, and the attributes of the point, in NPY the numbers alone. JSON has an object for each point, with the
+/// corners and faces of its cell. VTU, PLY and OBJ have the cells that have faces: in VTU polyhedra, in PLY and OBJ polygons, those between
+/// two cells once for each, so that every cell is a closed surface. SVG and PNG show all cells, or those that [`Polyhedra::cut`] leaves.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other formats, and those of the output.
@@ -25,6 +26,7 @@ pub fn write_polyhedra(out: &mut dyn Write, format: Format, cells: &Polyhedra) -
         Format::Vtu => return Ok(vtu::write_polyhedra(out, cells)?),
         Format::Ply => ply::write_polyhedra(out, cells)?,
         Format::Obj => obj::write_polyhedra(out, cells)?,
+        Format::Svg | Format::Png => picture::write_solid(out, format, &cells.solid(), &cells.picture)?,
         _ => return Err(format.without(Contents::Polyhedra, Direction::Written)),
     }
     Ok(None)
