@@ -201,7 +201,7 @@ impl<'a> Work<'a> {
         self.write(cells, stats)
     }
 
-    /// What pictures show, and from where.
+    /// The cut of pictures, and their camera.
     fn picture(&self) -> Result<(Option<Cut>, picture::Options), Failure> {
         let CameraArgs { size, .. } = self.args.camera;
         let camera = self.args.camera.camera()?;

@@ -32,7 +32,7 @@ pub(crate) struct PeriodicArgs {
     /// faces that rounding makes do not count; cells stay as they are.
     #[arg(long, value_name = "AREA", value_parser = super::length)]
     pub(crate) min_area: Option<f64>,
-    /// The same with faces of at least this part of the surface of the cell, as 1e-6.
+    /// As `--min-area`, with faces of at least this part of the surface of the cell, as 1e-6.
     #[arg(long, value_name = "PART", value_parser = super::length)]
     pub(crate) min_relative_area: Option<f64>,
     /// Take coordinates for decimals: multiples of STEP, or of the power of ten that all are multiples of but for rounding (`auto`). So

@@ -99,7 +99,7 @@ impl CameraArgs {
     }
 }
 
-/// What is taken away from a picture in space.
+/// The part of a picture in space that is taken away.
 #[derive(Debug, Args)]
 pub(crate) struct CutArgs {
     /// In space, take away the tetrahedra, or in pictures the cells, whose middle is beyond the plane A x + B y + C z = D.

@@ -84,7 +84,7 @@ pub type PeriodicCells2<'a, T> = PeriodicCells<'a, T, 2, 3>;
 pub type PeriodicCell2<'a, T> = PeriodicCell<'a, T, 2, 3>;
 /// A side of a cell in the plane.
 pub type PeriodicSide2<'a, T> = PeriodicFace<'a, T, 2, 3>;
-/// What is beyond a side.
+/// The neighbor beyond a side.
 pub type AcrossPeriodic2 = AcrossPeriodic<2>;
 /// Cells in space.
 pub type PeriodicCells3<'a, T> = PeriodicCells<'a, T, 3, 4>;
@@ -92,10 +92,10 @@ pub type PeriodicCells3<'a, T> = PeriodicCells<'a, T, 3, 4>;
 pub type PeriodicCell3<'a, T> = PeriodicCell<'a, T, 3, 4>;
 /// A face of a cell in space.
 pub type PeriodicFace3<'a, T> = PeriodicFace<'a, T, 3, 4>;
-/// What is beyond a face.
+/// The neighbor beyond a face.
 pub type AcrossPeriodic3 = AcrossPeriodic<3>;
 
-/// What is beyond a face of a cell among copies: a cell, or a wall by its number.
+/// The neighbor of a cell among copies: a cell, or a wall by its number.
 #[derive(Clone, Copy, Debug)]
 #[expect(unnameable_types, reason = "how cells are kept is hidden")]
 pub enum Beyond {

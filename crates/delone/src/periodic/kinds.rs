@@ -32,7 +32,7 @@ pub trait PeriodicKind<const D: usize, const N: usize>:
 
 /// A kind of triangulation whose periodic form has cells: all of them have.
 pub trait CellularKind<const D: usize, const N: usize>: PeriodicKind<D, N> {
-    /// What cells end at.
+    /// The walls that cells end at.
     #[doc(hidden)]
     type Region: Region<D>;
 

@@ -48,7 +48,7 @@ pub(in crate::space) struct Measures {
     pub(in crate::space) centroid: Option<Point>,
 }
 
-/// What one pass over the faces adds up, seen from a point and scaled.
+/// Sums of one pass over the faces, seen from a point and scaled.
 struct Sums {
     six_volumes: f64,
     /// 24 times the moment.
