@@ -138,9 +138,9 @@ impl Queue {
         }
         let (_, class) = &mut self.classes[at];
         if self.in_batches {
-            class.heap.push(task)
+            class.heap.push(task);
         } else {
-            class.push(task, points)
+            class.push(task, points);
         }
         self.first = self.first.min(at);
     }
