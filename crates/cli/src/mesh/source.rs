@@ -185,7 +185,7 @@ impl Sources {
             match same {
                 [(side, _)] => border.push(*side),
                 [(side, one), (_, other)] if attributes.row(*one) != attributes.row(*other) => {
-                    between.push(*side)
+                    between.push(*side);
                 }
                 _ => {}
             }
