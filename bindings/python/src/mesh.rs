@@ -155,6 +155,21 @@ impl Mesh {
         Ok((table(py, 3, corners)?, table(py, 3, neighbors)?))
     }
 
+    /// The rows of the triangles inside that hold places, or -1.
+    fn rows_at<'py>(
+        &self,
+        py: Python<'py>,
+        places: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let places: Vec<[f64; 2]> = coordinates(&places)?;
+        let rows = self.of(py, |this| {
+            let holding = |&at: &[f64; 2]| this.made.find(at).ok().and_then(|found| found.simplex);
+            let row = |t: TriangleId| this.rows.get(t.index()).copied();
+            places.iter().map(|at| holding(at).and_then(row).unwrap_or(-1)).collect::<Vec<i64>>()
+        })?;
+        Ok(PyArray1::from_vec(py, rows))
+    }
+
     /// The region of each triangle inside, or -1.
     fn regions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let regions = self.of(py, |this| {

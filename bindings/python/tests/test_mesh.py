@@ -215,6 +215,26 @@ def test_conforming_is_delaunay():
     assert (distance >= square * (1 - 1e-9)).all()
 
 
+def test_marked_triangles_are_refined_and_others_stay():
+    coarse = delone.mesh(UNIT, max_area=0.002, min_angle=25)
+    marked = np.linalg.norm(coarse.points[coarse.triangles].mean(axis=1) - 0.3, axis=1) < 0.1
+    fine = coarse.refine(marked=marked, min_angle=25)
+    assert (fine.points[: len(coarse.points)] == coarse.points).all()
+    parents = fine.parents
+    assert (parents >= 0).all() and (fine.areas <= np.where(marked, coarse.areas / 2, np.inf)[parents]).all()
+    # Areas of children make up those of their parents, far from where anything changed.
+    kept = {tuple(sorted(t)) for t in fine.triangles.tolist()} & {tuple(sorted(t)) for t in coarse.triangles.tolist()}
+    assert len(kept) > 0.7 * len(coarse.triangles)
+    assert 2 < np.isin(parents, np.flatnonzero(marked)).sum() / marked.sum() < 6
+    again = coarse.refine(marked=np.flatnonzero(marked), min_angle=25)
+    assert (again.triangles == fine.triangles).all()
+    assert (coarse.parents == -1).all() and len(coarse.parents) == len(coarse.triangles)
+    assert len(coarse.refine(marked=[], min_angle=25).triangles) == len(coarse.triangles)
+    for wrong, error in [([len(coarse.triangles)], IndexError), ([-1], IndexError), ([True], ValueError), ([0.5], TypeError)]:
+        with pytest.raises(error, match="marked"):
+            coarse.refine(marked=wrong)
+
+
 def test_budgets():
     mesh = delone.mesh(UNIT, max_area=0.001, max_vertices=7)
     assert len(mesh.points) == 11 and set(mesh.report.reasons) == {"budget"}

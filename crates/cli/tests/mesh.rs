@@ -340,6 +340,29 @@ fn sizes_come_from_a_file() {
     place.fail("mesh square.poly --size-columns x,y,edge -o m.vtu", 2, "--size");
 }
 
+/// Types of elements in files of Abaqus: those that most programs know, or the one that is asked for.
+#[test]
+fn elements_of_abaqus_have_the_type_that_is_asked_for() {
+    let place = Place::new();
+    place.file("plan.poly", PLAN);
+    for (options, kind) in [
+        ("", "CPS3"),
+        ("--second-order", "CPE6"),
+        ("--second-order --element CPS6", "CPS6"),
+        ("--element S3", "S3"),
+    ] {
+        place.succeed(&format!("-q mesh plan.poly {options} -o m.inp"));
+        let text = place.read("m.inp");
+        assert!(
+            text.lines()
+                .filter(|line| line.starts_with("*ELEMENT"))
+                .all(|line| { line.contains(&format!("TYPE={kind},")) })
+        );
+    }
+    place.fail("mesh plan.poly --element cps6 -o m.inp", 2, "no type of elements");
+    place.fail("mesh plan.poly --element CPS6 -o m.vtu", 2, "--element is for .inp files");
+}
+
 /// Sides between triangles of other attributes are segments: no new triangle has a part of both.
 #[test]
 fn materials_keep_their_areas_where_a_mesh_is_refined() {

@@ -57,6 +57,8 @@ pub struct Mesh<'a, T: Triangulation> {
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
     pub second_order: bool,
+    /// The type of elements in `.inp` files, if it is not the usual one, such as `CPS6`.
+    pub element: Option<&'a str>,
 }
 
 /// A row of a table for each simplex, by its index, or for each constraint.
@@ -124,6 +126,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             point_markers: None,
             edge_markers: true,
             second_order: false,
+            element: None,
         }
     }
 

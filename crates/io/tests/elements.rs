@@ -268,7 +268,7 @@ fn abaqus_sees_triangles_and_sets() {
     for scene in Scene::all() {
         for second_order in [false, true] {
             let seen = abaqus(&scene.written(Format::Inp, second_order));
-            judge_triangles(&scene, &seen, if second_order { "CPS6" } else { "CPS3" }, second_order);
+            judge_triangles(&scene, &seen, if second_order { "CPE6" } else { "CPS3" }, second_order);
             let mut sets: BTreeMap<String, BTreeSet<usize>> = BTreeMap::new();
             let middles: BTreeMap<[usize; 2], usize> = seen
                 .elements

@@ -315,9 +315,31 @@ class Mesh:
 
         return self._once("report", make)
 
+    @property
+    def parents(self) -> NDArray[np.int64]:
+        """Of a mesh that `refine` made: for each triangle the row of the old triangle that holds its centroid, (t,); -1 for none,
+        and in a mesh that is not refined. So data of old triangles go to new ones. Old points keep their indices.
+
+        Examples
+        --------
+        >>> import delone
+        >>> coarse = delone.mesh([[0, 0], [1, 0], [1, 1], [0, 1]], min_angle=0)
+        >>> fine = coarse.refine(marked=[0])
+        >>> sorted(set(fine.parents.tolist()))
+        [0, 1]"""
+
+        def make() -> NDArray[np.int64]:
+            origin = self._recipe[0]
+            if not isinstance(origin, Mesh):
+                return np.full(len(self.triangles), -1)
+            return origin._core.rows_at(np.ascontiguousarray(self.points[self.triangles].mean(axis=1)))
+
+        return self._once("parents", make)
+
     def refine(
         self,
         *,
+        marked: ArrayLike | None = None,
         min_angle: float = 20.0,
         max_area: float | None = None,
         max_areas: ArrayLike | None = None,
@@ -329,10 +351,13 @@ class Mesh:
         smooth: int = 0,
     ) -> Mesh:
         """A finer mesh of the same triangles, which has all points of this one under the indices that they have. What is good
-        enough stays as it is.
+        enough stays as it is. `parents` tells which old triangle each new one is in.
 
         Parameters
         ----------
+        marked : array_like of bools, shape (t,), or of integers, optional
+            Triangles to refine, by a flag for each or by their rows, as error estimators say: what is in them has at most half of
+            their area.
         max_areas : array_like of floats, shape (t,), optional
             The largest areas for what is in each triangle, by the centroids of new triangles. Infinite is no bound.
         min_angle, max_area, max_edge, size, max_vertices, keep, conforming, smooth
@@ -351,8 +376,14 @@ class Mesh:
         >>> fine = coarse.refine(max_areas=np.where(corner, 0.001, np.inf))
         >>> bool(len(fine.triangles) > 50), bool(np.isclose(fine.area, 1))
         (True, True)
+        >>> finer = fine.refine(marked=fine.areas > 0.01)  # for adaptive solvers
+        >>> finer.parents.shape == finer.areas.shape
+        True
         """
         areas = None if max_areas is None else _numbers(max_areas, "max_areas", len(self.triangles))
+        if marked is not None:
+            halves = np.where(_flags(marked, "marked", len(self.triangles)), self.areas / 2, np.inf)
+            areas = halves if areas is None else np.minimum(areas, halves)
         old: Wishes = self._recipe[1]
         wishes: Wishes = {
             "fill": old["fill"],
@@ -374,6 +405,24 @@ class Mesh:
         """A line that says what there is."""
         counts = f"{len(self.points)} points, {len(self.triangles)} triangles, {len(self.segments)} segments"
         return f"<delone.Mesh: {counts}>"
+
+
+def _flags(marked: ArrayLike, name: str, count: int) -> NDArray[np.bool_]:
+    """A flag for each of so many, of flags or indices."""
+    array = np.asarray(marked)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise ValueError(f"{name} must have a flag for each of {count} triangles; its shape is {array.shape}")
+        return array
+    if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
+        raise TypeError(f"{name} must be flags or integers in a row, not {array.dtype} of the shape {array.shape}")
+    rows = array.astype(np.int64)
+    if rows.size and not -1 < rows.min() <= rows.max() < count:
+        k = int(np.argmax((rows < 0) | (rows >= count)))
+        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} triangles")
+    flags = np.zeros(count, bool)
+    flags[rows] = True
+    return flags
 
 
 def _wanted(

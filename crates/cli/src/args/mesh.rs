@@ -97,6 +97,10 @@ pub(crate) struct MeshArgs {
     /// Triangles with six nodes: their corners and the middles of their edges.
     #[arg(long)]
     pub(crate) second_order: bool,
+    /// The type of elements in .inp files, such as CPS6 for plane stress [default: CPS3; CPE6 with --second-order, which is plane strain, because
+    /// more programs know it].
+    #[arg(long, value_name = "TYPE", value_parser = element)]
+    pub(crate) element: Option<String>,
     /// Leave out vertices that no triangle uses: the others are numbered anew, in their order.
     #[arg(long)]
     pub(crate) drop_unused: bool,
@@ -132,6 +136,16 @@ pub(crate) enum ColorName {
     Angle,
 }
 
+/// Parses a type of elements, as Abaqus has them.
+fn element(text: &str) -> Result<String, String> {
+    /// Letters and digits of the longest names.
+    const LONGEST: usize = 8;
+    let is_name = text.starts_with(|c: char| c.is_ascii_uppercase())
+        && text.len() <= LONGEST
+        && text.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit());
+    if is_name { Ok(text.to_owned()) } else { Err("it is no type of elements, such as CPS6".to_owned()) }
+}
+
 /// Examples, and Triangle's letters.
 fn mesh_help() -> String {
     format!(
@@ -141,6 +155,7 @@ fn mesh_help() -> String {
   delone mesh coast.poly --size depth.csv --size-columns x,y,edge -o coast.1.node -o coast.1.ele
   delone mesh coast.1.node --refine coast.1.ele --areas coast.1.area -o coast.2.node -o coast.2.ele
   delone mesh plan.poly --triangle pq30a.1
+  delone mesh plate.geojson --second-order --element CPS6 -o plate.inp
 
 New vertices follow those of the input, in the order in which they came. What is inside is written, as --fill says; vertices
 outside stay, without triangles, unless --drop-unused. Heights and attributes of new vertices are linear between those of the

@@ -225,6 +225,7 @@ impl Made {
             point_markers: points.as_deref(),
             edge_markers: plan.markers != Written::Never,
             second_order: plan.traits.second_order,
+            element: plan.element.as_deref(),
             ..Mesh::new(kept, &kept.points)
         };
         let _phase = Phase::start(quiet, "writing");

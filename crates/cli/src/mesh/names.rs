@@ -41,6 +41,9 @@ pub(super) fn named(args: &MeshArgs, plan: &Plan, inputs: &[&Path]) -> Result<Ve
         };
         targets.push((path, content));
     }
+    if plan.element.is_some() && !targets.iter().any(|target| target.1 == Content::Mesh(Format::Inp)) {
+        return Err(Failure::usage("--element is for .inp files", "write one, or leave --element out"));
+    }
     Ok(targets)
 }
 

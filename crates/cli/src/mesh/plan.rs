@@ -30,6 +30,8 @@ pub(super) struct Plan {
     pub(super) regions: Written,
     /// Whether the markers of points and segments are.
     pub(super) markers: Written,
+    /// The type of elements in `.inp` files.
+    pub(super) element: Option<String>,
     /// The number of the first point, if not as in the input.
     pub(super) base: Option<usize>,
     pub(super) traits: Traits,
@@ -79,6 +81,7 @@ impl Plan {
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
             regions: Written::AsGiven,
             markers: Written::AsGiven,
+            element: args.element.clone(),
             base: None,
             traits: Traits {
                 conforming: args.conforming,
@@ -127,6 +130,7 @@ impl Plan {
                 _ => Written::Never,
             },
             markers: if switches.has('B') { Written::Never } else { Written::Always },
+            element: args.element.clone(),
             base: switches.has('z').then_some(0),
             traits: Traits {
                 conforming: switches.has('D'),

@@ -1,7 +1,8 @@
 //! Input files of Abaqus (`.inp`), which other programs read too: nodes, elements in sets by region, and the nodes of sides in
 //! sets by marker. Nodes are numbered as their points, from 1.
 //!
-//! Triangles of the plane are plane-stress elements, those with heights are shells: their names are easily exchanged.
+//! Types of elements that Abaqus, CalculiX and meshio know: triangles of the plane are `CPS3` (plane stress), with six nodes `CPE6` (plane
+//! strain, because meshio does not know `CPS6`), those with heights shells. [`Mesh::element`] says another one.
 
 use std::io::{self, Write};
 
@@ -22,13 +23,14 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         write!(out, "{}, {x:?}, {y:?}", i + 1)?;
         if is_flat { writeln!(out)? } else { writeln!(out, ", {z:?}")? }
     }
-    let kind = match (elements.dimension, elements.has_heights, elements.second_order) {
+    let usual = match (elements.dimension, elements.has_heights, elements.second_order) {
         (3, ..) => "C3D4",
         (_, false, false) => "CPS3",
-        (_, false, true) => "CPS6",
+        (_, false, true) => "CPE6",
         (_, true, false) => "S3",
         (_, true, true) => "STRI65",
     };
+    let kind = mesh.element.unwrap_or(usual);
     let mut number = 0;
     for group in &elements.cells {
         writeln!(out, "*ELEMENT, TYPE={kind}, ELSET={}", group.name)?;
