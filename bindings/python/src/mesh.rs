@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use delone::{
-    Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement, RegionSeed2, Seeds2,
-    TriangleId, Triangulation as _,
+    Ask as _, Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement,
+    RegionSeed2, Seeds2, TriangleId, Triangulation as _,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
@@ -162,7 +162,7 @@ impl Mesh {
         places: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let places: Vec<[f64; 2]> = coordinates(&places)?;
-        let rows = self.of(py, |this| {
+        let rows = self.of(py, move |this| {
             let holding = |&at: &[f64; 2]| this.made.find(at).ok().and_then(|found| found.simplex);
             let row = |t: TriangleId| this.rows.get(t.index()).copied();
             places.iter().map(|at| holding(at).and_then(row).unwrap_or(-1)).collect::<Vec<i64>>()

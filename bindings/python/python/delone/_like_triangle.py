@@ -382,7 +382,7 @@ class Result:
         first = np.full(len(markers), len(markers))
         marked = np.flatnonzero(markers)
         np.minimum.at(first, sames[marked], marked)
-        return np.append(markers, 0)[first[sames]]
+        return np.asarray(np.append(markers, 0)[first[sames]])
 
     def _vertex_markers(self, at_segments: Ints) -> Ints:
         """Those that were given; of others that of the first segment there that has one."""
