@@ -30,6 +30,7 @@ mod place;
 mod polyhedra;
 mod program;
 mod rasters;
+mod refined_again;
 mod repeated;
 mod resume;
 mod segments;
