@@ -261,6 +261,7 @@ const PLANE: &[Operation<2>] = &[
     ("mesh by angle", |set| refined(set, Refinement::new().min_angle(25.0))),
     ("mesh by edge", |set| refined(set, Refinement::new().max_edge(set.unit / 16.0))),
     ("mesh by area", |set| refined(set, Refinement::new().max_area(set.unit * set.unit / 512.0))),
+    ("mesh of edges", |set| refined(set, Refinement::new().edge(set.unit / 16.0).growth(1.3))),
     ("mesh by size", |set| {
         let size = |[x, y]: [f64; 2]| set.unit / 32.0 + (x.abs() + y.abs()) / 16.0;
         refined(set, Refinement::new().size(&size))

@@ -197,6 +197,8 @@ def _wishes(switches: Switches, fill: str) -> Wishes:
         "min_angle": switches.min_angle,
         "max_area": switches.max_area,
         "max_edge": None,
+        "edge": None,
+        "growth": 1.2,
         "max_vertices": switches.max_vertices,
         "keep": ("nothing", "border", "constraints")[min(switches.keep, 2)],
         "conforming": switches.conforming,

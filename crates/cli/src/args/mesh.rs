@@ -55,6 +55,18 @@ pub(crate) struct MeshArgs {
     /// No longer edges.
     #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
     pub(crate) max_edge: Option<f64>,
+    /// The length that edges are to have: nearly equilateral triangles that grow smoothly. A --size is a length wanted then, too.
+    #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
+    pub(crate) edge: Option<f64>,
+    /// With --edge, the largest ratio of the lengths of neighboring edges: more than 1 [default: 1.2].
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "RATIO",
+        requires = "edge",
+        help_heading = "Quality"
+    )]
+    pub(crate) growth: Option<f64>,
     /// Largest number of new vertices.
     #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
     pub(crate) max_vertices: Option<usize>,
@@ -151,6 +163,7 @@ fn mesh_help() -> String {
     format!(
         "Examples:
   delone mesh plan.poly --min-angle 30 -o plan.msh -o plan.png --color angle
+  delone mesh plate.poly --edge 0.5 --min-angle 30 -o plate.vtu
   delone mesh lakes.geojson --max-area 100 --check --stats stats.json -o lakes.vtu
   delone mesh coast.poly --size depth.csv --size-columns x,y,edge -o coast.1.node -o coast.1.ele
   delone mesh coast.1.node --refine coast.1.ele --areas coast.1.area -o coast.2.node -o coast.2.ele

@@ -12,7 +12,7 @@ mod tell;
 
 use std::path::Path;
 
-use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Triangulation, VertexId};
+use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Shapes2, Triangulation, VertexId};
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
     write_voronoi_node,
@@ -91,6 +91,9 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     }
     let kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
     tell::count(report, kept.points.len(), &mut stats);
+    if args.input.stats.is_some() || plan.edge.is_some() {
+        tell::shapes(&Shapes2::of(c, &made.refined.domains), &mut stats);
+    }
     stats.set("hull", c.hull_facets().count());
     stats.set("vertices", kept.vertex_count());
     let angles = args.color == Some(ColorName::Angle);
@@ -142,7 +145,7 @@ impl Made {
         let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));
         let mut wanted = plan.refinement().fill(Fill::Parts(&inside));
         if sizes.is_some() {
-            wanted = wanted.size(&size);
+            wanted = if plan.edge.is_some() { wanted.edge_at(&size) } else { wanted.size(&size) };
         }
         if again.as_ref().is_some_and(Again::has_areas) {
             wanted = wanted.max_area_at(&area);

@@ -20,6 +20,9 @@ pub(super) struct Plan {
     pub(super) min_angle: f64,
     pub(super) max_area: Option<f64>,
     pub(super) max_edge: Option<f64>,
+    /// The length that edges are to have, and how it may grow.
+    pub(super) edge: Option<f64>,
+    pub(super) growth: Option<f64>,
     pub(super) max_vertices: Option<usize>,
     pub(super) keep: Keep,
     /// Rounds of smoothing.
@@ -71,6 +74,8 @@ impl Plan {
             min_angle: args.min_angle.unwrap_or(20.0),
             max_area: args.max_area,
             max_edge: args.max_edge,
+            edge: args.edge,
+            growth: args.growth,
             max_vertices: args.max_vertices,
             keep: match args.keep {
                 Some(KeepName::Border) => Keep::Border,
@@ -116,6 +121,8 @@ impl Plan {
             min_angle: switches.min_angle.unwrap_or(0.0),
             max_area: switches.max_area,
             max_edge: args.max_edge,
+            edge: args.edge,
+            growth: args.growth,
             max_vertices: switches.max_vertices,
             keep: match switches.count('Y') {
                 0 => Keep::Nothing,
@@ -157,6 +164,12 @@ impl Plan {
         }
         if let Some(length) = self.max_edge {
             wanted = wanted.max_edge(length);
+        }
+        if let Some(length) = self.edge {
+            wanted = wanted.edge(length);
+        }
+        if let Some(ratio) = self.growth {
+            wanted = wanted.growth(ratio);
         }
         if let Some(count) = self.max_vertices {
             wanted = wanted.max_vertices(count);

@@ -1,6 +1,6 @@
 //! The summary of a mesh: counts, angles, and triangles that are not as wanted.
 
-use delone::{Reason, RefinementReport2};
+use delone::{Reason, RefinementReport2, Shapes2};
 use serde_json::{Map, Value, json};
 
 use crate::message::{grouped, say, warn};
@@ -21,6 +21,12 @@ pub(super) fn count(report: &RefinementReport2, points: usize, stats: &mut Stats
     stats.set("histogram", report.angles.to_vec());
     stats.set("smallest_angles", report.smallest_angles.to_vec());
     stats.set("left", Value::Object(Map::from_iter(left)));
+}
+
+/// Notes how good triangles are for computing.
+pub(super) fn shapes(shapes: &Shapes2, stats: &mut Stats) {
+    stats.set("quality", json!({ "mean": shapes.quality_mean, "p5": shapes.quality_p5 }));
+    stats.set("step", json!({ "p95": shapes.step_p95 }));
 }
 
 /// The name of a reason in statistics.
@@ -59,11 +65,15 @@ pub(super) fn summary(report: &RefinementReport2, stats: &Stats, quiet: bool) {
     } else {
         String::new() // None was measured.
     };
+    let quality = match stats.get("quality")["mean"].as_f64() {
+        Some(mean) if mean > 0.0 => format!(", mean quality {mean:.3}"),
+        _ => String::new(),
+    };
     let seconds = stats.total();
     say(
         quiet,
         format_args!(
-            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles{angles} ({seconds:.2} s)"
+            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles{angles}{quality} ({seconds:.2} s)"
         ),
     );
 }

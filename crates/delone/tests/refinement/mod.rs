@@ -3,5 +3,6 @@
 mod again;
 mod bounds;
 mod ends;
+mod frontal;
 mod judge;
 mod nasty;

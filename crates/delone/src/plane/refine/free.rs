@@ -16,7 +16,7 @@ use crate::locate::walk;
 use crate::plane::layer::insert::Spot;
 
 /// The end of a walk.
-enum Met {
+pub(super) enum Met {
     /// The triangle that the point is in.
     Triangle(TriangleId),
     /// A constraint that it is behind, or on.
@@ -44,7 +44,7 @@ impl Mesher<'_> {
     }
 
     /// From a triangle, by an edge that `q` is not behind, to what is in the way.
-    fn walk(&self, start: EdgeId, q: [f64; 2]) -> Met {
+    pub(super) fn walk(&self, start: EdgeId, q: [f64; 2]) -> Met {
         let mesh = &self.layer.mesh;
         let side = |e: EdgeId| orient2d(self.point(mesh.tail(e)), self.point(mesh.head(e)), q);
         if !q.iter().all(|x| x.is_finite()) || side(start).is_negative() {
@@ -96,10 +96,11 @@ impl Mesher<'_> {
             self.leave(task.corners, Reason::Precision);
             return;
         }
-        let mut cavity = std::mem::take(&mut self.layer.cavity);
-        cavity.dig(&mut self.layer.mesh, &self.layer.points, q, t);
+        self.dig(q, t);
         let mesh = &self.layer.mesh;
-        let near: Vec<EdgeId> = cavity
+        let near: Vec<EdgeId> = self
+            .layer
+            .cavity
             .border()
             .iter()
             .map(|edge| edge.1)
@@ -111,7 +112,6 @@ impl Mesher<'_> {
             .collect();
         // Rounded, a point may be outside of the circle that it is to be the center of; it would mend nothing.
         let mends = mesh.is_marked(task.edge.triangle());
-        self.layer.cavity = cavity;
         let (nearest, square) = self.nearest(q);
         // The ends of the shortest edge made it necessary.
         let [v, w] = [task.corners[0], task.corners[1]];
@@ -144,6 +144,12 @@ impl Mesher<'_> {
     fn is_strictly_in(&self, t: TriangleId, q: [f64; 2]) -> bool {
         let [a, b, c] = self.layer.mesh.places(t).map(|v| self.point(v));
         [[a, b], [b, c], [c, a]].into_iter().all(|[p, r]| orient2d(p, r, q).is_positive())
+    }
+
+    /// Digs the cavity of a point in a triangle.
+    pub(super) fn dig(&mut self, q: [f64; 2], t: TriangleId) {
+        let layer = &mut *self.layer;
+        layer.cavity.dig(&mut layer.mesh, &layer.points, q, t);
     }
 
     /// Leaves the cavity that was dug as it is.

@@ -137,6 +137,14 @@ impl<'a> Mesher<'a> {
         }
     }
 
+    /// Forgets all new vertices, when the triangulation and what is known of its vertices are as they were.
+    pub(super) fn restart(&mut self) {
+        self.queue.clear();
+        self.born.clear();
+        (self.count, self.for_sizes) = (0, 0);
+        self.refused.clear();
+    }
+
     /// Mends all that can be mended.
     pub(super) fn run(&mut self) -> Result<(), Error> {
         let constraints: Vec<EdgeId> = {

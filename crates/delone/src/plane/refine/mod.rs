@@ -14,21 +14,25 @@
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
 mod free;
+mod frontal;
 mod mesher;
 mod queue;
 mod report;
 mod rules;
 mod shape;
+mod shapes;
 mod smooth;
 mod split;
 mod survey;
 
 pub use report::{Reason, RefinementReport2, Unrefined2};
+pub use shapes::Shapes2;
 
 use super::constrained::{Constrained2, Domains2, Fill, Origin};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, VertexId};
 use crate::points::survey as bounds;
+use frontal::Frontal;
 use mesher::{Done, Known, Mesher};
 use queue::{Queue, STEEP_ANGLE};
 use rules::{Field, Rules};
@@ -68,6 +72,9 @@ pub struct Refinement<'a> {
     max_edge: Option<f64>,
     area_at: Option<Field<'a>>,
     size_at: Option<Field<'a>>,
+    edge: Option<f64>,
+    edge_at: Option<Field<'a>>,
+    growth: f64,
     max_vertices: Option<usize>,
     keep: Keep,
     conforming: bool,
@@ -95,6 +102,8 @@ impl std::fmt::Debug for Refinement<'_> {
             .field("min_angle", &self.min_angle)
             .field("max_area", &self.max_area)
             .field("max_edge", &self.max_edge)
+            .field("edge", &self.edge)
+            .field("growth", &self.growth)
             .field("max_vertices", &self.max_vertices)
             .field("keep", &self.keep)
             .field("conforming", &self.conforming)
@@ -118,6 +127,10 @@ fn origins(c: &Constrained2, done: &Done) -> Vec<Origin> {
     (0..c.points().len()).map(of).collect()
 }
 
+/// The default of [`Refinement::growth`]. Of 1.1, 1.2, 1.3 and 1.5 the first makes 1.45 times as many triangles on twenty geometries, with
+/// qualities that are higher by a five hundredth; the last 0.85 times as many, with steps that are larger by a tenth.
+const GROWTH: f64 = 1.2;
+
 /// Degrees, up to which refinement ends by itself in practice. At 34 meshes have some 1.2 times as many triangles as at 30; from 35 on
 /// there are inputs on which new vertices make new faults without end.
 const STEEPEST_THAT_ENDS: f64 = 34.0;
@@ -131,6 +144,9 @@ impl<'a> Refinement<'a> {
             max_edge: None,
             area_at: None,
             size_at: None,
+            edge: None,
+            edge_at: None,
+            growth: GROWTH,
             max_vertices: None,
             keep: Keep::Nothing,
             conforming: false,
@@ -210,6 +226,37 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn size(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
         Self { size_at: Some(length), ..self }
+    }
+
+    /// Edges are to have this length: triangles become nearly equilateral, and grow smoothly from where the input asks for short edges
+    /// to where it does not. The length is what is wanted and no bound: most edges have from 0.8 to 1.1 times it, fewer where constraints
+    /// are near. All bounds hold as without it. What is too large, by a bound or a field, gets edges that keep the bound.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement, Shapes2};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let made = Refinement::new().edge(0.5).min_angle(30.0).run(&mut c)?;
+    /// let shapes = Shapes2::of(&c, &made.domains);
+    /// assert!(shapes.quality_mean > 0.97 && made.report.smallest_angle > 30.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[must_use]
+    pub fn edge(self, length: f64) -> Self {
+        Self { edge: Some(length), ..self }
+    }
+
+    /// The same with a length for each place, which is asked wherever an edge may be; the least of both counts. Infinite is no wish.
+    #[must_use]
+    pub fn edge_at(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
+        Self { edge_at: Some(length), ..self }
+    }
+
+    /// For meshes with a wanted length of edges: lengths grow by at most this factor from one edge to the next, from more than 1 on.
+    /// 1.2, if nothing is said: less makes more triangles that are better; more, fewer.
+    #[must_use]
+    pub fn growth(self, factor: f64) -> Self {
+        Self { growth: factor, ..self }
     }
 
     /// Sets the largest number of new vertices.
@@ -325,9 +372,14 @@ impl<'a> Refinement<'a> {
         let before = c.begin_refinement(&mut domains);
         let rules = Rules::new(self, &domains, &before);
         let layer = c.layer();
-        let queue = Queue::new(&bounds(&layer.points).0, self.min_angle > STEEP_ANGLE);
+        let bounds = bounds(&layer.points).0;
+        let queue = Queue::new(&bounds, self.min_angle > STEEP_ANGLE);
         let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins);
-        let mut ran = mesher.run();
+        let mut ran = if self.edge.is_some() || self.edge_at.is_some() {
+            Frontal::new(&mut mesher, &bounds, self.growth).run()
+        } else {
+            mesher.run()
+        };
         if self.smoothing > 0 && ran.is_ok() {
             (0..self.smoothing).for_each(|_| mesher.smooth());
             ran = mesher.run();
@@ -349,6 +401,7 @@ impl<'a> Refinement<'a> {
         let bounds = [
             ("max_area", self.max_area, self.max_area),
             ("max_edge", self.max_edge, self.max_edge.map(equilateral)),
+            ("edge", self.edge, self.edge.map(equilateral)),
         ];
         for (name, value, largest) in bounds {
             let (Some(value), Some(largest), None) = (value, largest, self.max_vertices) else { continue };
@@ -366,7 +419,10 @@ impl<'a> Refinement<'a> {
             let range = "from 0 to less than 60 degrees";
             return Err(Error::Parameter { name: "min_angle", value: self.min_angle, range });
         }
-        let bounds = [("max_area", self.max_area), ("max_edge", self.max_edge)];
+        if self.growth.is_nan() || self.growth <= 1.0 {
+            return Err(Error::Parameter { name: "growth", value: self.growth, range: "more than 1" });
+        }
+        let bounds = [("max_area", self.max_area), ("max_edge", self.max_edge), ("edge", self.edge)];
         match bounds
             .into_iter()
             .find_map(|(name, value)| Some((name, value.filter(|x| x.is_nan() || *x <= 0.0)?)))

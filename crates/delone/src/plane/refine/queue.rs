@@ -109,6 +109,19 @@ impl Queue {
         Self { classes: Vec::new(), in_batches, first: 0, low: bounds.low, scale }
     }
 
+    /// Where a place is along the Morton curve.
+    #[inline]
+    pub(super) fn along_curve(&self, at: [f64; 2]) -> u64 {
+        let [x, y] = [0, 1].map(|k| spread(((at[k] - self.low[k]) * self.scale[k]) as u32));
+        x << 1 | y
+    }
+
+    /// Forgets all tasks.
+    pub(super) fn clear(&mut self) {
+        self.classes.clear();
+        self.first = 0;
+    }
+
     /// A task at a place, with the square of a length.
     #[inline]
     pub(super) fn task(
@@ -119,9 +132,8 @@ impl Queue {
         edge: EdgeId,
         corners: [Place; 3],
     ) -> Task {
-        let [x, y] = [0, 1].map(|k| spread(((at[k] - self.low[k]) * self.scale[k]) as u32));
         let length = squared.to_bits() >> 51;
-        let place = x << 1 | y;
+        let place = self.along_curve(at);
         let round = ROUNDS - (place.wrapping_mul(HASH) | 1 << (63 - ROUNDS * SHARE)).leading_zeros() / SHARE;
         let key = (fault as u64) << CLASS | length << LENGTH | u64::from(round) << ROUND | place;
         Task { key, edge, corners }

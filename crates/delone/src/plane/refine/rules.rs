@@ -13,6 +13,16 @@ const NARROWEST: f64 = 20.0;
 /// Off-centers are this part of the way: what is made passes with room to spare (Shewchuk's choice).
 const SHORT: f64 = 0.95;
 
+/// Edges are in the mean this part of a longest one: so few are longer.
+const OF_LONGEST: f64 = 0.75;
+/// Triangles are in the mean this part of a largest one.
+const OF_LARGEST: f64 = 0.7;
+
+/// The length of edges of triangles with an area that is a bound.
+fn of_area(largest: f64) -> f64 {
+    (OF_LARGEST * largest * (4.0 / 3.0_f64.sqrt())).sqrt()
+}
+
 /// The default limit of new vertices that serve angles, where the caller sets none: a gap as narrow as a rounding error would take
 /// more than memory holds. The limit is the larger of this number and a multiple of the number of points, and grows with sizes.
 const MAX_VERTICES_FOR_ANGLES: usize = 1 << 21;
@@ -38,6 +48,9 @@ pub(super) struct Rules<'a> {
     keep: Keep,
     /// The square of the longest edge.
     squared_longest: f64,
+    /// The length that edges are to have, if that is the same everywhere; infinite if nothing is said.
+    length: f64,
+    length_at: Option<Field<'a>>,
     /// By domain, those inside from 1 on; there is nothing at 0.
     areas: Vec<f64>,
     /// Whether there is any bound of sizes, and whether one is asked for each place.
@@ -85,6 +98,8 @@ impl<'a> Rules<'a> {
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
             areas,
             has_fields,
+            length: wanted.edge.unwrap_or(f64::INFINITY),
+            length_at: wanted.edge_at,
             area_at: wanted.area_at,
             size_at: wanted.size_at,
             flaw: Cell::new(None),
@@ -124,6 +139,36 @@ impl<'a> Rules<'a> {
         let asked = |field: Option<Field>| field.map_or(f64::INFINITY, |field| field(at)).max(0.0);
         let area = self.areas.get(domain).copied().unwrap_or(f64::INFINITY).min(asked(self.area_at));
         self.squared_longest.min(area).sqrt().min(asked(self.size_at))
+    }
+
+    /// The length that edges are to have at a place, by what was asked for or what the bounds there let reach.
+    pub(super) fn length_at(&self, at: [f64; 2]) -> f64 {
+        let asked = |field: Option<Field>| {
+            let value = field.map_or(f64::INFINITY, |field| field(at));
+            if value > 0.0 {
+                return value;
+            }
+            self.flaw.set(self.flaw.get().or(Some((value, at))));
+            f64::INFINITY
+        };
+        let bound = self.squared_longest.sqrt().min(asked(self.size_at));
+        let length = self.length.min(asked(self.length_at)).min(OF_LONGEST * bound);
+        length.min(of_area(asked(self.area_at)))
+    }
+
+    /// The length that edges are to have in a domain, by the bound of areas there.
+    pub(super) fn length_in(&self, domain: usize) -> f64 {
+        of_area(self.areas.get(domain).copied().unwrap_or(f64::INFINITY))
+    }
+
+    /// The largest length that edges are to have anywhere.
+    pub(super) fn longest_length(&self) -> f64 {
+        self.length
+    }
+
+    /// The largest number of new vertices.
+    pub(super) fn most(&self) -> usize {
+        self.most
     }
 
     /// Not if a bound was none, or somebody wants to stop, who is told the number of new vertices.

@@ -100,6 +100,14 @@ impl Shape {
         0.5 * cross.abs()
     }
 
+    /// The radius of the circumcircle, rounded.
+    pub(super) fn radius(&self) -> f64 {
+        let (_, cross) = self.across();
+        let [a, b, c] = self.squares.map(f64::sqrt);
+        // In an order that leaves the range of numbers for no triangle that there is a shape of.
+        0.5 * b * (a * (c / cross.abs()))
+    }
+
     /// The square of the longest side.
     #[inline]
     pub(super) fn longest(&self) -> f64 {

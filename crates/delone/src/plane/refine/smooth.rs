@@ -74,14 +74,14 @@ impl Mesher<'_> {
     }
 
     /// The largest squared cosine of a smallest angle in a star, and the sum of all of them.
-    fn sharpness(&self, star: &[EdgeId]) -> (f64, f64) {
+    pub(super) fn sharpness(&self, star: &[EdgeId]) -> (f64, f64) {
         let shapes = star.iter().map(|e| Shape::of(self.layer, e.triangle()));
         let squares = shapes.map(|shape| shape.map_or(f64::INFINITY, |shape| shape.squared_cosine()));
         squares.fold((0.0, 0.0), |(most, sum), square| (square.max(most), sum + square))
     }
 
     /// Whether no triangle of a star is larger than it may be.
-    fn is_small(&self, star: &[EdgeId]) -> bool {
+    pub(super) fn is_small(&self, star: &[EdgeId]) -> bool {
         let mesh = &self.layer.mesh;
         star.iter().map(|e| e.triangle()).all(|t| {
             Shape::of(self.layer, t).is_some_and(|shape| !self.rules.is_large(&shape, mesh.domain(t)))

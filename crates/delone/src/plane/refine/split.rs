@@ -40,9 +40,18 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        if self.insert_on(e, q) {
+        if let Some(v) = self.insert_on(e, q) {
             self.for_sizes += usize::from(is_for_size);
+            self.look_around(v);
+            self.look_at_constraints_around(v);
         }
+    }
+
+    /// Splits a constraint at a place for the sake of a size, if that is possible, and looks at nothing.
+    pub(super) fn divide(&mut self, e: EdgeId, q: [f64; 2]) -> Option<Place> {
+        let q = std::iter::once(q).chain(around(q)).find(|&q| self.is_clear(e, q))?;
+        self.for_sizes += 1;
+        self.insert_on(e, q)
     }
 
     fn refuse(&mut self, e: EdgeId, reason: Reason) {
@@ -191,8 +200,8 @@ impl Mesher<'_> {
         }
     }
 
-    /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
+    /// Makes a point the vertex that splits a constraint, unless it is too near to others. Gives the vertex.
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> Option<Place> {
         let near = self.tips_near(e).map(|tip| self.known[tip.index()].scale).fold(f64::INFINITY, f64::min);
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
@@ -210,7 +219,7 @@ impl Mesher<'_> {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
             self.refuse(e, Reason::Cascade);
-            return false;
+            return None;
         }
         let v = self.layer.place_for(Spot::Triangle(seed), q);
         self.fill(v);
@@ -218,9 +227,7 @@ impl Mesher<'_> {
         self.known[nearest.index()].scale = self.known[nearest.index()].scale.min(scale);
         debug_assert!(tips.iter().all(|tip| tip.is_ghost() || self.layer.mesh.is_vertex(*tip)));
         self.part(v, ends, domains);
-        self.look_around(v);
-        self.look_at_constraints_around(v);
-        true
+        Some(v)
     }
 
     /// A triangle that the point beside an edge is in, or beyond the hull edge of.
