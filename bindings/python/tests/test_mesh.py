@@ -410,3 +410,45 @@ def test_poissons_equation_converges(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "the power of 2" in done.stdout or "the power of 1.9" in done.stdout
     assert (tmp_path / "poisson.png").stat().st_size > 10_000
+
+
+def test_edges_have_the_length_that_is_wanted():
+    for growth in (1.1, 1.2, 1.5):
+        made = delone.mesh(SQUARE, RINGS, edge=0.2, growth=growth, min_angle=28)
+        check(made, SQUARE, RINGS)
+        found, lengths = angles(made)
+        assert found.min() >= 28 and len(made.report.left) == 0
+        assert 0.17 < lengths.mean() < 0.21 and lengths.max() < 0.3
+        quality = 4 * 3**0.5 * made.areas / (lengths**2).sum(axis=1)
+        assert abs(quality.mean() - made.shapes.quality_mean) < 1e-9
+        assert made.shapes.quality_p5 == pytest.approx(np.sort(quality)[len(quality) // 20])
+        assert made.shapes.quality_mean > 0.97 and 1 < made.shapes.step_p95 < 1.4
+    order = np.random.default_rng(1).permutation(7)
+    rank = np.argsort(order)
+    again = delone.mesh(np.array(SQUARE)[order], rank[np.array(RINGS)], edge=0.2, growth=1.5, min_angle=28)
+    places = [sorted(map(tuple, mesh.points.tolist())) for mesh in (made, again)]
+    assert places[0] == places[1]
+
+
+def test_wanted_lengths_differ_by_place():
+    def length(x, y):
+        return 0.02 + 0.2 * np.hypot(x, y)
+
+    made = delone.mesh(UNIT, edge=np.inf, size=length, min_angle=28)
+    by_points = delone.mesh(UNIT, edge=1, size=[length(*p) for p in UNIT], min_angle=28)
+    for mesh in (made, by_points):
+        _, lengths = angles(mesh)
+        wanted = length(*mesh.points[mesh.triangles].mean(axis=1).T)
+        assert 0.8 < np.median(lengths.mean(axis=1) / wanted) < 1.2
+        assert mesh.shapes.quality_mean > 0.9
+    finer = made.refine(edge=0.05, min_angle=28)
+    assert len(finer.triangles) > len(made.triangles) and np.array_equal(finer.points[: len(made.points)], made.points)
+    for bad in ({"edge": 0}, {"edge": -1}, {"edge": np.nan}, {"edge": 0.1, "growth": 1}, {"edge": 0.1, "growth": np.nan}):
+        with pytest.raises(ValueError, match=r"edge|growth"):
+            delone.mesh(UNIT, **bad)
+    with pytest.raises(ValueError, match=r"size|length"):
+        delone.mesh(UNIT, edge=0.1, size=lambda x, y: float("nan"))
+    with pytest.raises(ZeroDivisionError):
+        delone.mesh(UNIT, edge=0.1, size=lambda x, y: 1 / 0)
+    with pytest.raises(MemoryError):
+        delone.mesh(UNIT, edge=1e-9)

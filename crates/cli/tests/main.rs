@@ -18,6 +18,7 @@ mod folders;
 mod graph;
 mod helps;
 mod inputs;
+mod lengths;
 mod lidar;
 mod limits;
 mod mesh;

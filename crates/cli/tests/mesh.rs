@@ -99,7 +99,7 @@ impl Mesh {
         .collect()
     }
 
-    fn edges(&self) -> BTreeSet<[usize; 2]> {
+    pub(crate) fn edges(&self) -> BTreeSet<[usize; 2]> {
         let sides = self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         sides.map(|[v, w]| [v.min(w), v.max(w)]).collect()
     }

@@ -134,13 +134,14 @@ def mesh(
     max_edge : float, optional
         No edge is to be longer, segments included.
     edge : float, optional
-        The length that edges are to have: triangles become nearly equilateral and grow smoothly. It is what is wanted and no bound;
-        most edges have from 0.8 to 1.1 times it. Infinite where `size` says all.
+        The length that edges are to have: triangles become nearly equilateral and grow smoothly. It is what is wanted and no
+        bound; most edges have from 0.8 to 1.1 times it. Infinite where `size` says all.
     growth : float
         With `edge`, neighboring edges differ by at most this factor, which is more than 1.
     size : float, function or array_like of shape (n,), optional
-        With `edge`, the length that is wanted at a place; without it, no edge of a triangle is to be longer than this at its centroid: a number, what a function says of x and y, or linear
-        between points that have a number each, on their Delaunay triangulation. Infinite is no bound.
+        No edge of a triangle is to be longer than this at its centroid: a number, what a function says of x and y, or linear
+        between points that have a number each, on their Delaunay triangulation. Infinite is no bound. With `edge` it is a length
+        that is wanted, too.
     max_vertices : int, optional
         So many new points at most.
     keep : str

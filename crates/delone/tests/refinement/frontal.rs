@@ -48,7 +48,7 @@ fn geometries() -> Vec<(&'static str, Points, Segments, f64)> {
     };
     add("gear", 0.05, vec![(0..24).flat_map(tooth).collect(), circle(48, 0.4, [0.0; 2]).collect()]);
     let holes = (0..100).map(|k| {
-        let center = [0.05 + 0.1 * (k % 10) as f64, 0.05 + 0.1 * (k / 10) as f64];
+        let center = [0.05 + 0.1 * f64::from(k % 10), 0.05 + 0.1 * f64::from(k / 10)];
         circle(24, 0.025, center).collect()
     });
     add("plate", 0.02, std::iter::once(square).chain(holes).collect());

@@ -2,6 +2,8 @@
 
 use std::cell::Cell;
 
+use delone_predicates::lexicographic;
+
 use super::shape::Shape;
 use super::{Keep, Refinement};
 use crate::error::Error;
@@ -117,16 +119,21 @@ impl<'a> Rules<'a> {
                 || (self.has_fields && self.is_larger_than_wanted(shape)))
     }
 
+    /// The value of a field at a place. Of values that are none the one at the least place is remembered, whatever the order of the places.
+    fn asked(&self, field: Option<Field>, at: [f64; 2]) -> f64 {
+        let value = field.map_or(f64::INFINITY, |field| field(at));
+        if value > 0.0 {
+            return value;
+        }
+        if self.flaw.get().is_none_or(|flaw| lexicographic(at, flaw.1).is_lt()) {
+            self.flaw.set(Some((value, at)));
+        }
+        f64::INFINITY
+    }
+
     fn is_larger_than_wanted(&self, shape: &Shape) -> bool {
         let at = shape.centroid();
-        let asked = |field: Option<Field>| {
-            let value = field.map_or(f64::INFINITY, |field| field(at));
-            if value > 0.0 {
-                return value;
-            }
-            self.flaw.set(self.flaw.get().or(Some((value, at))));
-            f64::INFINITY
-        };
+        let asked = |field| self.asked(field, at);
         let size = asked(self.size_at);
         shape.area() > asked(self.area_at) || shape.longest() > size * size
     }
@@ -143,14 +150,7 @@ impl<'a> Rules<'a> {
 
     /// The length that edges are to have at a place, by what was asked for or what the bounds there let reach.
     pub(super) fn length_at(&self, at: [f64; 2]) -> f64 {
-        let asked = |field: Option<Field>| {
-            let value = field.map_or(f64::INFINITY, |field| field(at));
-            if value > 0.0 {
-                return value;
-            }
-            self.flaw.set(self.flaw.get().or(Some((value, at))));
-            f64::INFINITY
-        };
+        let asked = |field| self.asked(field, at);
         let bound = self.squared_longest.sqrt().min(asked(self.size_at));
         let length = self.length.min(asked(self.length_at)).min(OF_LONGEST * bound);
         length.min(of_area(asked(self.area_at)))

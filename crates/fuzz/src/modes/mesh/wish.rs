@@ -29,6 +29,10 @@ pub(super) struct Wish {
     pub(super) min_angle: f64,
     pub(super) max_area: Option<f64>,
     pub(super) max_edge: Option<f64>,
+    /// The length that edges are to have, and how it may grow.
+    length: Option<f64>,
+    length_at: Option<Field>,
+    growth: f64,
     pub(super) size: Option<Field>,
     pub(super) area: Option<Field>,
     /// Beyond this the size is none.
@@ -59,7 +63,7 @@ impl Wish {
         let part =
             |random: &mut Random| span * 2f64.powi(-(random.below(10) as i32)) * random.between(0.5, 1.5);
         let mut sometimes = |n: usize| if once_in(random, n) { positive(part(random)) } else { None };
-        let [edge, area, size, area_at] = [4, 3, 5, 6].map(&mut sometimes);
+        let [edge, area, size, area_at, length, length_at] = [4, 3, 5, 6, 3, 6].map(&mut sometimes);
         let field = |base: f64, slope: f64| {
             let from = points.first().map_or(0.0, |p| p[0]);
             Some(Field { from, base, slope }).filter(|field| positive(field.base).is_some())
@@ -78,6 +82,9 @@ impl Wish {
             min_angle: pick(random, &[0.0, 1.0, 15.0, 20.0, 25.0, 28.6, 30.0, 33.0, 34.0, 45.0]),
             max_area: area.and_then(|x| positive(0.3 * x * x)),
             max_edge: edge,
+            length,
+            length_at: length_at.and_then(|x| field(0.2 * x, 0.3)),
+            growth: pick(random, &[1.05, 1.2, 1.2, 1.5, 4.0]),
             size: size.and_then(|x| field(0.2 * x, 0.3)),
             area: area_at.and_then(|x| field(0.1 * x * x, 0.1 * x)),
             none_beyond: if once_in(random, 30) { points.last().map(|p| p[0]) } else { None },
@@ -118,7 +125,8 @@ impl Wish {
 
     /// These criteria, with an angle that is easier.
     pub(super) fn easier(&self) -> Self {
-        Self { min_angle: 0.5 * self.min_angle, smooth: 0, stop: None, ..self.clone() }
+        let (length, length_at) = (None, None);
+        Self { min_angle: 0.5 * self.min_angle, smooth: 0, stop: None, length, length_at, ..self.clone() }
     }
 
     /// Does it.
@@ -128,6 +136,7 @@ impl Wish {
             (_, Some(field)) => field.at(p),
             _ => f64::INFINITY,
         };
+        let length = |p: Point| self.length_at.map_or(f64::INFINITY, |field| field.at(p));
         let area = |p: Point| self.area.map_or(f64::INFINITY, |field| field.at(p));
         let asked = Cell::new(0);
         let stop = || asked.replace(asked.get() + 1) >= self.stop.unwrap_or(usize::MAX);
@@ -136,6 +145,7 @@ impl Wish {
             .keep(self.keep)
             .conforming(self.conforming)
             .smooth(self.smooth)
+            .growth(self.growth)
             .max_vertices(self.most)
             .stop_if(&stop)
             .fill(fill);
@@ -144,6 +154,12 @@ impl Wish {
         }
         if let Some(most) = self.max_edge {
             how = how.max_edge(most);
+        }
+        if let Some(length) = self.length {
+            how = how.edge(length);
+        }
+        if self.length_at.is_some() {
+            how = how.edge_at(&length);
         }
         if self.size.is_some() || self.none_beyond.is_some() {
             how = how.size(&size);

@@ -69,8 +69,8 @@ impl Frontal<'_, '_> {
             last = count;
             let mut room = Room::new(self.mesher.rules.most());
             self.find_rings(&mut corners, &lines, &mut room)?;
-            for k in 0..lines.len() {
-                lines[k].parts = self.parts_of(&lines[k], &rings_on(k, &lines[k], &corners), &mut room)?;
+            for (k, line) in lines.iter_mut().enumerate() {
+                line.parts = self.parts_of(line, &rings_on(k, line, &corners), &mut room)?;
             }
         }
         // Where there was no room for a vertex now, refinement may find some.
@@ -92,6 +92,8 @@ impl Frontal<'_, '_> {
             Line { ends, length, wanted: beside[0].min(beside[1]), parts: Vec::new(), vertices: Vec::new() }
         };
         let mut lines: Vec<Line> = mesh.fixed_edges().filter(is_line).map(line).collect();
+        // Squares of lengths leave the range of numbers sooner than coordinates.
+        lines.retain(|line| line.length > 0.0 && line.length.is_finite());
         sorting::by(&mut lines, |one, other| {
             let order = |k: usize| lexicographic(self.point(one.ends[k]), self.point(other.ends[k]));
             order(0).then_with(|| order(1))
