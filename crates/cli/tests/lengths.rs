@@ -50,7 +50,7 @@ fn lengths_come_from_a_file_too() {
     let place = Place::new();
     place.file("plan.poly", PLAN);
     place.file("sizes.csv", "x,y,length\n0,0,0.1\n9,0,1\n9,9,1\n0,9,1\n");
-    place.succeed("-q mesh plan.poly --edge 1 --size sizes.csv --max-edge 0.9 -o m.node -o m.ele");
+    place.succeed("-q mesh plan.poly --edge 1 --size sizes.csv --size-columns x,y,length --max-edge 0.9 -o m.node -o m.ele");
     let made = mesh(&place, "m");
     let near = |t: &&[usize; 3]| t.iter().all(|&v| made.points[v].iter().all(|&x| x < 1.0));
     let count = made.triangles.iter().filter(near).count();

@@ -246,7 +246,18 @@ impl<'a> Refinement<'a> {
         Self { edge: Some(length), ..self }
     }
 
-    /// The same with a length for each place, which is asked wherever an edge may be; the least of both counts. Infinite is no wish.
+    /// Edges are to have the length that is said for a place, which is asked wherever an edge may be. With [`Self::edge`] the lesser one
+    /// counts; infinite is no wish.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let wanted = |[x, _]: [f64; 2]| 0.1 + 0.2 * x; // short edges on the left
+    /// Refinement::new().edge_at(&wanted).growth(1.3).run(&mut c)?;
+    /// assert!(c.vertices().filter(|&v| c.point(v)[0] < 1.0).count() > c.vertex_count() / 3);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn edge_at(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
         Self { edge_at: Some(length), ..self }

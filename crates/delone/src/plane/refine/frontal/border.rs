@@ -8,17 +8,18 @@
 use delone_predicates::lexicographic;
 
 use super::Frontal;
-use super::rings::{Corners, SAME};
+use super::rings::{Corners, SAME_DISTANCE};
 use super::samples::Samples;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
 use crate::sorting;
 
 /// Rounds at most, and at least.
-const ROUNDS: std::ops::RangeInclusive<usize> = 4..=8;
-/// The number of vertices changes little if it does by less than one in so many.
-const LITTLE: usize = 50;
-/// A part of a constraint is at most so many times as long as its size, if it can be.
+const DIVISION_ROUNDS: std::ops::RangeInclusive<usize> = 4..=8;
+/// The division is settled if the number of vertices changes by at most one in so many.
+const SETTLED_PART: usize = 50;
+/// A part of a constraint is at most so many times as long as its size: one of 1.28 sizes stays whole. With 1.12 or 1.2 such ones are halved, and a
+/// ring with 100 sides has 2.5 times as large steps inside.
 const LONGEST_PART: f64 = 1.3;
 /// Vertices on constraints, from which on the lengths that are asked for are an error: two gigabytes of memory.
 const MOST_ON_CONSTRAINTS: f64 = (1_u64 << 26) as f64;
@@ -44,7 +45,7 @@ impl Frontal<'_, '_> {
         let mut corners = self.corners(&lines);
         let (layer, known) = (self.mesher.layer.clone(), self.mesher.known.clone());
         let mut last = 0;
-        for round in 1..=*ROUNDS.end() {
+        for round in 1..=*DIVISION_ROUNDS.end() {
             if round > 1 {
                 self.mesher.layer.clone_from(&layer);
                 self.mesher.known.clone_from(&known);
@@ -62,8 +63,8 @@ impl Frontal<'_, '_> {
             }
             self.limit_growth();
             let count = self.mesher.count;
-            let is_settled = count.abs_diff(last) <= last / LITTLE;
-            if round == *ROUNDS.end() || (ROUNDS.contains(&round) && is_settled) {
+            let is_settled = count.abs_diff(last) <= last / SETTLED_PART;
+            if round == *DIVISION_ROUNDS.end() || (DIVISION_ROUNDS.contains(&round) && is_settled) {
                 break;
             }
             last = count;
@@ -149,11 +150,11 @@ impl Frontal<'_, '_> {
         let between = samples.divided(from, to, count);
         let opposite = radii[1].iter().rev().map(|radius| line.length - radius);
         let all = radii[0].iter().copied().chain(between).chain(opposite);
-        let inner = SAME..1.0 - SAME;
+        let inner = SAME_DISTANCE..1.0 - SAME_DISTANCE;
         let mut parts: Vec<f64> =
             all.map(|from| from / line.length).filter(|part| inner.contains(part)).collect();
         // Rings of both ends may meet.
-        parts.dedup_by(|next, part| *next <= *part + SAME);
+        parts.dedup_by(|next, part| *next <= *part + SAME_DISTANCE);
         Ok(parts)
     }
 }

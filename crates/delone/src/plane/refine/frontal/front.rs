@@ -21,18 +21,21 @@ use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 
-/// A triangle is large if its circle is so many times as large as that of an equilateral one of its size. The least that makes no more
-/// vertices than there is room for.
-const LARGE: f64 = 1.22;
-/// No vertex is nearer than this part of a size to another.
-const NEAR: f64 = 0.8;
-/// Or than this part to a constraint, whose length counts as so many sizes if it is shorter.
-const NEAR_CONSTRAINT: f64 = 0.55;
-const OF_CONSTRAINT: f64 = 1.3;
-/// A new edge is from so many to so many times as long as the one that it starts at.
-const LEGS: [f64; 2] = [0.75, 1.5];
-/// The size at a place that depends on it is found in so many steps.
-const STEPS: usize = 3;
+// Origin of the numbers below: the twenty geometries of `compare/with_gmsh.py`, medians of quality and of its 5 percent.
+
+/// A triangle is large from so many times the circumradius of an equilateral triangle of its size on. From 1.18 to 1.27 all is alike.
+const LARGE_RADIUS: f64 = 1.22;
+/// No vertex is nearer to another one than this part of a size. With 0.75 there are 4 percent more triangles, 5 percent of them below 0.947
+/// instead of 0.953; with 0.84, 2 percent fewer, and the mean falls from 0.989 to 0.988.
+const LEAST_DISTANCE: f64 = 0.8;
+/// No vertex is nearer to a constraint than this part of a size. From 0.5 to 0.62 all is alike; below, triangles at borders are flat.
+const LEAST_HEIGHT: f64 = 0.55;
+/// The size counts there as so many times the length of the constraint at most.
+const HEIGHT_OF_LENGTH: f64 = 1.3;
+/// A new edge is from so many to so many times as long as the one that it starts at: else it would be flat, or sharp.
+const LEG_OF_BASE: [f64; 2] = [0.75, 1.5];
+/// The size at a place that depends on it is found in so many steps: each one is off by a fifth of the step before.
+const PLACE_STEPS: usize = 3;
 /// After so many vertices it is asked whether to go on.
 const PAUSE: usize = 256;
 
@@ -138,7 +141,7 @@ impl Frontal<'_, '_> {
         let mean = corners.into_iter().map(|p| self.sizes.at(p)).sum::<f64>() / 3.0;
         // Inside sizes may be larger than at the corners, at most by growth.
         let size = (mean + 0.5 * self.sizes.slope * radius).min(self.mesher.rules.longest_length());
-        radius > LARGE * size / 3.0_f64.sqrt() && !front.done.contains(&sorted(corners))
+        radius > LARGE_RADIUS * size / 3.0_f64.sqrt() && !front.done.contains(&sorted(corners))
     }
 
     /// Whether there is no large triangle across an edge of one.
@@ -190,8 +193,8 @@ impl Frontal<'_, '_> {
         let middle = [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
         let normal = [(a[1] - b[1]) / length, (b[0] - a[0]) / length];
         let (mut q, mut size) = (middle, 0.5 * (self.sizes.at(ends[0]) + self.sizes.at(ends[1])));
-        for _ in 0..STEPS {
-            let leg = size.clamp(LEGS[0] * length, LEGS[1] * length);
+        for _ in 0..PLACE_STEPS {
+            let leg = size.clamp(LEG_OF_BASE[0] * length, LEG_OF_BASE[1] * length);
             let up = (leg * leg - 0.25 * length * length).max(0.0).sqrt().min(far);
             q = [0, 1].map(|k| middle[k] + up * normal[k]);
             let grown = ends.map(|p| self.sizes.from(p, distance(q, self.point(p))));
@@ -222,7 +225,10 @@ impl Frontal<'_, '_> {
         let size = allowed.fold(size, f64::min);
         let (nearest, square) = self.mesher.nearest(q);
         let is_near = |&(_, e): &(Place, EdgeId)| mesh.is_fixed(e) && self.is_near_constraint(e, q, size);
-        if square < (NEAR * size) * (NEAR * size) || !mesh.is_marked(large) || border.iter().any(is_near) {
+        if square < (LEAST_DISTANCE * size) * (LEAST_DISTANCE * size)
+            || !mesh.is_marked(large)
+            || border.iter().any(is_near)
+        {
             self.mesher.abandon();
             return None;
         }
@@ -241,15 +247,16 @@ impl Frontal<'_, '_> {
         let square = squared(a, b);
         let along = u[0] * w[0] + u[1] * w[1];
         let height = (u[0] * w[1] - u[1] * w[0]).abs() / square.sqrt();
-        (0.0..=square).contains(&along) && height < NEAR_CONSTRAINT * size.min(OF_CONSTRAINT * square.sqrt())
+        (0.0..=square).contains(&along) && height < LEAST_HEIGHT * size.min(HEIGHT_OF_LENGTH * square.sqrt())
     }
 }
 
 /// How far a length is from a size: classes of a sixteenth of a doubling or halving, by the bits of the ratio, so that no logarithm decides.
 fn classes_off(length: f64, size: f64) -> u64 {
-    const CLASS: u32 = 48;
+    /// Bits of the mantissa below the four highest.
+    const CLASS_SHIFT: u32 = 48;
     let ratio = (length / size).max(size / length).max(1.0);
-    (ratio.to_bits() - 1.0_f64.to_bits()) >> CLASS
+    (ratio.to_bits() - 1.0_f64.to_bits()) >> CLASS_SHIFT
 }
 
 fn sorted(mut corners: [Place; 3]) -> [Place; 3] {

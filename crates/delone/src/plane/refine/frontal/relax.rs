@@ -30,16 +30,16 @@ pub(super) struct Way {
 }
 
 /// Steps of Newton's method for a vertex and round, and halvings of a step that makes things worse.
-const STEPS: usize = 2;
+const NEWTON_STEPS: usize = 2;
 const HALVINGS: usize = 3;
 /// A vertex moves at most by this part of its size in a round.
-const FARTHEST: f64 = 0.3;
+const FARTHEST_MOVE: f64 = 0.3;
 /// It keeps this part of its distance from constraints in a round.
 const HEIGHT_KEPT: f64 = 0.6;
 /// The area of an equilateral triangle with sides of length one.
-const EQUILATERAL: f64 = 0.433;
+const EQUILATERAL_AREA: f64 = 0.433;
 /// A square of sides, summed, is so many times the area of an equilateral triangle: 4 sqrt 3.
-const SQUARES: f64 = 6.928_203_230_275_509;
+const SQUARES_OF_AREA: f64 = 6.928_203_230_275_509;
 
 /// A triangle of a star: its other corners, and its area as wanted, with its weight.
 #[derive(Clone, Copy)]
@@ -91,14 +91,14 @@ impl Frontal<'_, '_> {
         blades.extend(star.iter().map(|&e| {
             let [a, b] = [mesh.head(e), mesh.tip(e)];
             let size = (size + (self.sizes.at(a) + self.sizes.at(b))) / 3.0;
-            let area = EQUILATERAL * size * size * way.evenness;
+            let area = EQUILATERAL_AREA * size * size * way.evenness;
             Blade { a: self.point(a), b: self.point(b), area, is_fixed: mesh.is_fixed(e.next()) }
         }));
         let own = self.point(p);
         let goal = best(own, blades, way.squares);
         let step = [goal[0] - own[0], goal[1] - own[1]];
         let length = (step[0] * step[0] + step[1] * step[1]).sqrt();
-        let part = if length > FARTHEST * size { FARTHEST * size / length } else { 1.0 };
+        let part = if length > FARTHEST_MOVE * size { FARTHEST_MOVE * size / length } else { 1.0 };
         let q = [0, 1].map(|k| own[k] + part * step[k]);
         if q == own || !blades.iter().all(|blade| blade.allows(own, q)) {
             return;
@@ -120,7 +120,7 @@ impl Frontal<'_, '_> {
 fn best(own: [f64; 2], blades: &[Blade], squares: bool) -> [f64; 2] {
     let Some(mut sum) = sum_at(own, blades, squares) else { return own };
     let mut q = own;
-    for _ in 0..STEPS {
+    for _ in 0..NEWTON_STEPS {
         let [xx, xy, yy] = sum.curve;
         let determinant = xx * yy - xy * xy;
         if determinant.is_nan() || determinant <= 0.0 {
@@ -176,13 +176,13 @@ impl Blade {
         }
         let dot = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
         let inverse = 1.0 / area;
-        let value = ((dot(u) + dot(v) + dot(w)) / SQUARES + self.area) * inverse;
+        let value = ((dot(u) + dot(v) + dot(w)) / SQUARES_OF_AREA + self.area) * inverse;
         // Gradients of the numerator and of the area.
-        let n = [0, 1].map(|k| -2.0 * (u[k] + v[k]) / SQUARES);
+        let n = [0, 1].map(|k| -2.0 * (u[k] + v[k]) / SQUARES_OF_AREA);
         let d = [-0.5 * w[1], 0.5 * w[0]];
         let slope = [0, 1].map(|k| (n[k] - value * d[k]) * inverse);
         let curve = |j: usize, k: usize| {
-            let own = if j == k { 4.0 / SQUARES } else { 0.0 };
+            let own = if j == k { 4.0 / SQUARES_OF_AREA } else { 0.0 };
             (own - (slope[j] * d[k] + slope[k] * d[j])) * inverse
         };
         Some(Sum { value, slope, curve: [curve(0, 0), curve(0, 1), curve(1, 1)] })

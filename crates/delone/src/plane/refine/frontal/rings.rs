@@ -22,7 +22,7 @@ const WIDE_GAP: f64 = 2.0;
 /// A ring nearer to the end of a constraint than this part of the last step is left out there.
 const LEAST_STEP: f64 = 0.5;
 /// Distances that differ by less than this part are the same, in spite of rounding.
-pub(super) const SAME: f64 = 1e-9;
+pub(super) const SAME_DISTANCE: f64 = 1e-9;
 
 /// The rings of a corner.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +44,9 @@ impl Rings {
         let mut last = 0.0;
         for &radius in &self.radii {
             let rest = reach - radius;
-            if rest < -SAME * reach || (rest > SAME * reach && rest < LEAST_STEP * (radius - last)) {
+            if rest < -SAME_DISTANCE * reach
+                || (rest > SAME_DISTANCE * reach && rest < LEAST_STEP * (radius - last))
+            {
                 break;
             }
             on.push(radius);
@@ -156,7 +158,7 @@ impl Frontal<'_, '_> {
         };
         let samples = Samples::along(reach, room.left(), known.collect(), wanted, self.sizes.slope);
         let reach = samples.first(|from, size| rings.chord * from >= WIDE_GAP * size).unwrap_or(reach);
-        ends.retain(|&end| end < (1.0 - SAME) * reach);
+        ends.retain(|&end| end < (1.0 - SAME_DISTANCE) * reach);
         ends.push(reach);
         let mut radii = Vec::new();
         let mut from = 0.0;
@@ -182,7 +184,8 @@ impl Frontal<'_, '_> {
         let is_same = one.on.iter().all(|end| other.on.contains(end));
         one.on.into_iter().any(|o| {
             let is_near = |rings: &Rings| {
-                let within = |last: &f64| [p, q].iter().all(|v| self.distance(*v, o) <= last * (1.0 + SAME));
+                let within =
+                    |last: &f64| [p, q].iter().all(|v| self.distance(*v, o) <= last * (1.0 + SAME_DISTANCE));
                 rings.radii.last().is_none_or(within)
             };
             other.on.contains(&o) && (is_same || corners.get(&o).is_none_or(is_near))

@@ -17,19 +17,19 @@ use crate::ids::{EdgeId, Place};
 
 /// An edge across a gap is to be this many times as long as a size, or less: so a gap as wide as a size is one triangle wide.
 const ACROSS_GAP: f64 = 1.1;
-/// The same of the height of a gap: that of an equilateral triangle of the size.
-const OF_HEIGHT: f64 = 1.155;
+/// A height across a gap is to be an equilateral triangle's of the size, or more: two over the square root of three.
+const ACROSS_HEIGHT: f64 = 1.155;
 
 /// Gaps that ask for less than this part of the length that is wanted are left to refinement: it knows which it can fill, and when to end.
 /// At vertices of the input, which do not become more, the part is a millionth: sizes grow from there at once.
-const NARROWEST: [f64; 2] = [1.0 / 64.0, 1e-6];
+const NARROWEST_GAP: [f64; 2] = [1.0 / 64.0, 1e-6];
 
 /// See the module.
 #[derive(Clone, Debug)]
 pub(super) struct Sizes {
     /// By place.
     of: Vec<f64>,
-    /// What a size may grow by on a way of length one.
+    /// How much a size may grow on a way of length one.
     pub(super) slope: f64,
 }
 
@@ -112,7 +112,7 @@ impl Frontal<'_, '_> {
         let wanted = of.clone();
         let narrowest = |p: Place| {
             let is_input = self.mesher.known[p.index()].is_input();
-            NARROWEST[usize::from(is_input)] * wanted[p.index()].min(self.extent)
+            NARROWEST_GAP[usize::from(is_input)] * wanted[p.index()].min(self.extent)
         };
         for t in mesh.triangles().filter(|&t| self.mesher.is_inside(t)) {
             let own = self.mesher.rules.length_in(mesh.domain(t));
@@ -122,7 +122,7 @@ impl Frontal<'_, '_> {
                 if mesh.is_fixed(e) {
                     if !is_joined(self, w, u) && !is_joined(self, w, v) {
                         let height = to_segment(self.point(w), [u, v].map(|p| self.point(p)));
-                        lower(&mut of, w, (OF_HEIGHT * height).max(narrowest(w)));
+                        lower(&mut of, w, (ACROSS_HEIGHT * height).max(narrowest(w)));
                     }
                 } else if !is_joined(self, u, v) {
                     let length = ACROSS_GAP * self.distance(u, v);
