@@ -58,7 +58,8 @@ def main():
     for name, polygon in judge.chosen(polygons()):
         (judge.folder / "polygon.geojson").write_text(shapely.to_geojson(polygon))
         size = polygon.area**0.5
-        for how in [[], ["--max-edge", repr(size / 6)], ["--max-area", repr(polygon.area / 60), "--conforming"]]:
+        areas = ["--max-area", repr(polygon.area / 60), "--conforming"]
+        for how in [[], ["--max-edge", repr(size / 6)], areas, ["--edge", repr(size / 12)]]:
             faults = judge.run(
                 "mesh", "polygon.geojson", "--min-angle", str(ANGLE), *how, "-o", "mesh.vtu", "--stats", "stats.json"
             )
