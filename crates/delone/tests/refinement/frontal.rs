@@ -213,6 +213,10 @@ fn bounds_regions_and_what_is_kept_count_too() {
         assert_eq!((refined.report.on_constraints, c.constraints().count()), (0, segments.len()));
         assert!(refined.report.inside > 2000);
     }
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let how = Refinement::new().edge(0.05).keep(Keep::Constraints);
+    let (_, refined) = refine(&square, &[], how, Fill::All, 30.0, "whole sides");
+    assert!(refined.report.triangles > 500, "{}", refined.report.triangles);
     let fine = RegionSeed2::new([-0.9, 0.0]).max_area(0.0002);
     let seeds = Seeds2::default().regions(vec![fine, RegionSeed2::new([0.4, 0.0])]);
     let how = Refinement::new().edge(0.1);
@@ -261,6 +265,50 @@ fn it_ends_where_it_is_told_to() {
     for points in [vec![], vec![[1.0, 1.0]], vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]] {
         let mut c = Constrained2::from_parts(&points, &[]).expect("points");
         assert!(Refinement::new().edge(0.1).run(&mut c).is_ok());
+    }
+}
+
+/// Constraints are divided whatever their direction, however much longer than their parts, and where sizes are least on them.
+#[test]
+fn borders_have_all_their_vertices() {
+    let turned = |degrees: f64| -> Points {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]]
+            .map(|[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos])
+            .to_vec()
+    };
+    let least = |[x, y]: [f64; 2]| 0.3 + 0.2 * (x - 50.0).hypot(y);
+    for degrees in [0.0, 7.0, 36.87, 45.0, 71.0] {
+        for length in [0.9, 3.3, 10.1] {
+            let how = Refinement::new().edge(length);
+            let name = format!("{degrees}, {length}");
+            let (c, refined) = refine(&turned(degrees), &[], how, Fill::All, 30.0, &name);
+            assert!(refined.report.left.is_empty(), "{name}");
+            let parts =
+                c.constraint_edges().map(|e| c.segment(e)).map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]));
+            assert!(parts.map(|part| part / length).all(|part| (0.8..1.3).contains(&part)), "{name}");
+        }
+    }
+    let (c, refined) = refine(&turned(0.0), &[], Refinement::new().edge_at(&least), Fill::All, 30.0, "least");
+    assert!(refined.report.left.is_empty());
+    for [a, b] in c.constraint_edges().map(|e| c.segment(e)) {
+        let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
+        assert!((b[0] - a[0]).hypot(b[1] - a[1]) < 1.4 * least(middle), "{a:?}, {b:?}");
+    }
+    // A long strip takes no longer than its triangles.
+    let strip = vec![[0.0, 0.0], [2000.0, 0.0], [2000.0, 1.0], [0.0, 1.0]];
+    let (_, refined) = refine(&strip, &[], Refinement::new().edge(1.0), Fill::All, 30.0, "strip");
+    assert!((3900..4700).contains(&refined.report.triangles), "{}", refined.report.triangles);
+}
+
+/// Where squares of lengths leave the range of numbers nothing is divided, and that is told.
+#[test]
+fn lengths_without_squares_are_left() {
+    for scale in [2.0_f64.powi(-600), 1e-320, 1e200, 1e300] {
+        let points = [[0.0, 0.0], [scale, 0.0], [scale, scale], [0.0, scale]];
+        let mut c = Constrained2::from_parts(&points, &[]).expect("points");
+        let made = Refinement::new().edge(0.1 * scale).run(&mut c).expect("refined");
+        assert_eq!(made.report.left_for(Reason::Precision), made.report.triangles, "{scale}");
     }
 }
 

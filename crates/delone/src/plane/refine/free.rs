@@ -141,7 +141,7 @@ impl Mesher<'_> {
         self.rules.is_large(shape, self.layer.mesh.domain(t))
     }
 
-    fn is_strictly_in(&self, t: TriangleId, q: [f64; 2]) -> bool {
+    pub(super) fn is_strictly_in(&self, t: TriangleId, q: [f64; 2]) -> bool {
         let [a, b, c] = self.layer.mesh.places(t).map(|v| self.point(v));
         [[a, b], [b, c], [c, a]].into_iter().all(|[p, r]| orient2d(p, r, q).is_positive())
     }

@@ -40,7 +40,7 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        if let Some(v) = self.insert_on(e, q) {
+        if let Some(v) = self.insert_on(e, q, false) {
             self.for_sizes += usize::from(is_for_size);
             self.look_around(v);
             self.look_at_constraints_around(v);
@@ -49,9 +49,16 @@ impl Mesher<'_> {
 
     /// Splits a constraint at a place for the sake of a size, if that is possible, and looks at nothing.
     pub(super) fn divide(&mut self, e: EdgeId, q: [f64; 2]) -> Option<Place> {
-        let q = std::iter::once(q).chain(around(q)).find(|&q| self.is_clear(e, q))?;
+        // The ends of a piece are rounded too: what is beside its input constraint by less than they are is beside the piece by more.
+        let [a, b] = self.ends(e).map(|v| self.point(v));
+        let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
+        let part = (u[0] * w[0] + u[1] * w[1]) / squared(a, b);
+        let on_piece = [0, 1].map(|k| a[k] + part * u[k]);
+        let mut places = std::iter::once(q).chain(around(q)).chain([on_piece]).chain(around(on_piece));
+        let q = places.find(|&q| self.is_clear(e, q))?;
+        let v = self.insert_on(e, q, true)?;
         self.for_sizes += 1;
-        self.insert_on(e, q)
+        Some(v)
     }
 
     fn refuse(&mut self, e: EdgeId, reason: Reason) {
@@ -200,8 +207,9 @@ impl Mesher<'_> {
         }
     }
 
-    /// Makes a point the vertex that splits a constraint, unless it is too near to others. Gives the vertex.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> Option<Place> {
+    /// Makes a point the vertex that splits a constraint, unless it is too near to others for a vertex that nobody asked for. Gives
+    /// the vertex.
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2], is_asked_for: bool) -> Option<Place> {
         let near = self.tips_near(e).map(|tip| self.known[tip.index()].scale).fold(f64::INFINITY, f64::min);
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
@@ -215,6 +223,7 @@ impl Mesher<'_> {
         let (nearest, square) = self.nearest(q);
         let wanted = domains.map(|domain| self.rules.size_at(q, domain));
         let scale = wanted.into_iter().fold(self.scale_on(on, nearest, square, q).min(near), f64::min);
+        let scale = if is_asked_for { scale.min(square.sqrt()) } else { scale };
         if Self::is_cascade(square, scale) {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);

@@ -113,21 +113,26 @@ impl Frontal<'_, '_> {
         [0, 1].map(|k| a[k] + part * (b[k] - a[k]))
     }
 
-    /// Puts vertices where a constraint is to be divided.
+    /// Puts vertices where a constraint is to be divided: in the middle first, because what sees a long rest is triangulated anew each time.
     fn divide(&mut self, line: &mut Line) {
         line.vertices.clear();
-        let mesh = &self.mesher.layer.mesh;
         let [a, b] = line.ends;
-        let Some(mut rest) = mesh.edge_between(a, b) else { return };
-        for &part in &line.parts {
-            if self.mesher.rules.is_enough(self.mesher.count, self.mesher.for_sizes, true) {
-                return;
+        let mut rest = vec![(0, line.parts.len(), a, b)];
+        while let Some((low, high, a, b)) = rest.pop() {
+            if low == high || self.mesher.rules.is_enough(self.mesher.count, self.mesher.for_sizes, true) {
+                continue;
             }
-            let Some(v) = self.mesher.divide(rest, self.on(line, part)) else { continue };
-            line.vertices.push((part, v));
-            let Some(next) = self.mesher.layer.mesh.edge_between(v, b) else { return };
-            rest = next;
+            let Some(e) = self.mesher.layer.mesh.edge_between(a, b) else { continue };
+            let middle = low + (high - low) / 2;
+            // There may be no room for one of them.
+            let mut candidates = (middle..high).chain((low..middle).rev());
+            let made =
+                candidates.find_map(|k| Some((k, self.mesher.divide(e, self.on(line, line.parts[k]))?)));
+            let Some((k, v)) = made else { continue };
+            line.vertices.push((line.parts[k], v));
+            rest.extend([(k + 1, high, v, b), (low, k, a, v)]);
         }
+        sorting::by(&mut line.vertices, |one, other| one.0.total_cmp(&other.0));
     }
 
     /// The sizes at the vertices along a constraint, its ends included.

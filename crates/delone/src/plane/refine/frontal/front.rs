@@ -36,6 +36,8 @@ const HEIGHT_OF_LENGTH: f64 = 1.3;
 const LEG_OF_BASE: [f64; 2] = [0.75, 1.5];
 /// The size at a place that depends on it is found in so many steps: each one is off by a fifth of the step before.
 const PLACE_STEPS: usize = 3;
+/// A triangle that no place behind an edge mends gets a vertex inside if its circumradius is more than so many sizes: twice what is large.
+const MUCH_TOO_LARGE: f64 = 1.4;
 /// After so many vertices it is asked whether to go on.
 const PAUSE: usize = 256;
 
@@ -201,12 +203,29 @@ impl Frontal<'_, '_> {
             size = self.mesher.rules.length_at(q).min(own).min(grown[0]).min(grown[1]);
         }
         let Met::Triangle(t) = self.mesher.walk(e, q) else { return false };
-        let Some((v, size)) = self.insert(e.triangle(), t, q, size) else { return false };
+        let row = 1 + front.row(ends[0]).max(front.row(ends[1]));
+        self.insert(e.triangle(), t, q, size).is_some_and(|made| self.note_around(front, made, row))
+    }
+
+    /// Puts a vertex into the middle of a triangle that is much too large: beside a constraint that is kept whole all places behind edges
+    /// may be on it. Returns whether there is a place.
+    fn place_inside(&mut self, front: &mut Front, t: TriangleId) -> bool {
+        let Some(shape) = Shape::of(self.mesher.layer, t) else { return false };
+        let q = shape.centroid();
+        let own = self.mesher.rules.length_in(self.mesher.layer.mesh.domain(t));
+        let size = self.mesher.rules.length_at(q).min(own);
+        shape.radius() > MUCH_TOO_LARGE * size
+            && self.mesher.is_strictly_in(t, q)
+            && self.insert(t, t, q, size).is_some_and(|made| self.note_around(front, made, 1))
+    }
+
+    /// Notes a new vertex with its size, and the active edges around it.
+    fn note_around(&mut self, front: &mut Front, (v, size): (Place, f64), row: u32) -> bool {
         self.sizes.set(v, size);
         if front.rows.len() <= v.index() {
             front.rows.resize(v.index() + 1, 0);
         }
-        front.rows[v.index()] = 1 + front.row(ends[0]).max(front.row(ends[1]));
+        front.rows[v.index()] = row;
         let star: Vec<EdgeId> = self.mesher.layer.mesh.spokes(v).collect();
         for e in star {
             self.note(front, e.triangle());
