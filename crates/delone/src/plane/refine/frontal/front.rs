@@ -120,7 +120,8 @@ impl Frontal<'_, '_> {
             let placed = self.place_behind(&mut front, e)
                 || [e.next(), e.previous()]
                     .into_iter()
-                    .any(|other| self.is_active(&front, other) && self.place_behind(&mut front, other));
+                    .any(|other| self.is_active(&front, other) && self.place_behind(&mut front, other))
+                || self.place_inside(&mut front, t);
             if !placed {
                 front.done.insert(sorted(task.corners));
                 for k in 0..3 {
