@@ -94,8 +94,6 @@ class Voronoi:
                 raise ValueError("furthest_site and merge are for diagrams without a box: leave them out, or box=")
             self.in_box = Periodic(points, box, periodic, radii, grid, origin)
             self.ndim, self.npoints, self.furthest_site = self.in_box.ndim, self.in_box.npoints, False
-            if self.ndim == 2:
-                raise NotImplementedError("cells in a box are for points of space; Periodic triangulates those of the plane")
             return
         if not (radii is None and grid is None and origin is None and periodic is True):
             raise ValueError("periodic, radii, grid and origin are for points in a box: give box=, or see PowerDiagram")

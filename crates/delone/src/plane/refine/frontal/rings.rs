@@ -8,6 +8,8 @@
 
 use std::collections::BTreeMap;
 
+use delone_predicates::lexicographic;
+
 use super::Frontal;
 use super::border::{Line, Room};
 use super::samples::Samples;
@@ -126,8 +128,12 @@ impl Frontal<'_, '_> {
         lines: &[Line],
         room: &mut Room,
     ) -> Result<(), Error> {
-        for (&corner, rings) in corners.iter_mut() {
-            rings.radii = self.radii_around(corner, rings, lines, room)?;
+        // In an order of geometry: where vertices are limited the first corners have them.
+        let mut order: Vec<Place> = corners.keys().copied().collect();
+        sorting::by(&mut order, |p, q| lexicographic(self.point(*p), self.point(*q)));
+        for corner in order {
+            let radii = self.radii_around(corner, &corners[&corner], lines, room)?;
+            corners.entry(corner).or_default().radii = radii;
         }
         Ok(())
     }
