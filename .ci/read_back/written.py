@@ -332,7 +332,9 @@ def polyhedra_of(kind):
             for title, cell in scene.geometry.items():
                 assert cell.is_watertight and cell.is_winding_consistent
                 volumes[int(title.removeprefix("site_"))] = cell.volume
-        if kind not in ("csv", "npy"):
+        elif kind in ("svg", "png"):
+            picture(file, 100)
+        if kind not in ("csv", "npy", "svg", "png"):
             assert np.allclose([volumes[site] for site in range(len(ball))], numbers[:, 0], rtol=0, atol=1e-9)
 
 
