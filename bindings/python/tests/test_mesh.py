@@ -443,6 +443,8 @@ def test_wanted_lengths_differ_by_place():
         assert mesh.shapes.quality_mean > 0.9
     finer = made.refine(edge=0.05, min_angle=28)
     assert len(finer.triangles) > len(made.triangles) and np.array_equal(finer.points[: len(made.points)], made.points)
+    with pytest.raises(ValueError, match="give edge"):
+        delone.mesh(UNIT, growth=1.5)
     for bad in ({"edge": 0}, {"edge": -1}, {"edge": np.nan}, {"edge": 0.1, "growth": 1}, {"edge": 0.1, "growth": np.nan}):
         with pytest.raises(ValueError, match=r"edge|growth"):
             delone.mesh(UNIT, **bad)

@@ -135,7 +135,7 @@ def mesh(
         No edge is to be longer, segments included.
     edge : float, optional
         The length that edges are to have: triangles become nearly equilateral and grow smoothly. It is what is wanted and no
-        bound; most edges have from 0.8 to 1.1 times it. Infinite where `size` says all.
+        bound; most edges have from 0.9 to 1.15 times it. Infinite where `size` says all.
     growth : float
         With `edge`, neighboring edges differ by at most this factor, which is more than 1.
     size : float, function or array_like of shape (n,), optional
@@ -484,6 +484,8 @@ def _wanted(
     rounds = as_index(smooth, "smooth")
     if not 0 <= rounds < 2**31:
         raise ValueError(f"smooth must be from 0 to 2**31, not {rounds}")
+    if edge is None and growth != 1.2:
+        raise ValueError("growth is that of edges of a wanted length: give edge, too")
     lengths = [] if max_edge is None else [_bound(max_edge, "max_edge")]
     field = size
     if size is not None and not callable(size):

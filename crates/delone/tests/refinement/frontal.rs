@@ -312,7 +312,7 @@ fn lengths_without_squares_are_left() {
     }
 }
 
-/// A mesh that exists may be made finer, and keeps its vertices.
+/// A mesh that exists may be made finer, and keeps its vertices; one that is fine enough stays as it is, whatever the lengths of its edges.
 #[test]
 fn a_mesh_is_made_finer() {
     let (_, points, segments, length) = geometries().remove(1);
@@ -323,4 +323,18 @@ fn a_mesh_is_made_finer() {
     let again = how(length).fill(Fill::Parts(&first.domains)).run(&mut c).expect("fine");
     judge(&before, &c, &again, 28.0, "finer");
     assert!(again.report.triangles > 3 * first.report.triangles && again.report.left.is_empty());
+    let (mut c, first) =
+        refine(&points, &segments, Refinement::new().max_area(0.003), Fill::EvenOdd, 28.0, "areas");
+    let again = how(2.0 * length).fill(Fill::Parts(&first.domains)).run(&mut c).expect("as it is");
+    assert_eq!([again.report.inside, again.report.on_constraints], [0; 2]);
+}
+
+/// Angles that are tried only change what they must.
+#[test]
+fn steeper_angles_are_tried_once() {
+    let (_, points, segments, length) = geometries().remove(1);
+    let how = Refinement::new().edge(length);
+    let count = |degrees| refine(&points, &segments, how, Fill::EvenOdd, degrees, "steep").1.report.triangles;
+    let [plain, steep] = [30.0, 37.0].map(count);
+    assert!(steep >= plain && 10 * steep < 11 * plain, "{plain}, then {steep}");
 }

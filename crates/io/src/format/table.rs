@@ -45,6 +45,10 @@ const OF_VTK: Readers = Readers {
     ..Readers::NONE
 };
 
+/// Contents that pictures show.
+const DRAWN: &[Contents] =
+    &[Triangles, SecondOrder, Tetrahedra, Surfaces, Cells, Polyhedra, Patches, Contours, Pictures];
+
 /// All formats, in the order in which they are listed.
 pub(super) const TABLE: &[Row] = &[
     Row {
@@ -464,17 +468,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["svg"],
         also: &[],
         readers: Readers::NONE,
-        writes: &[
-            Triangles,
-            SecondOrder,
-            Tetrahedra,
-            Surfaces,
-            Cells,
-            Polyhedra,
-            Patches,
-            Contours,
-            Pictures,
-        ],
+        writes: DRAWN,
     },
     Row {
         format: Format::Png,
@@ -482,16 +476,6 @@ pub(super) const TABLE: &[Row] = &[
         names: &["png"],
         also: &[],
         readers: Readers::NONE,
-        writes: &[
-            Triangles,
-            SecondOrder,
-            Tetrahedra,
-            Surfaces,
-            Cells,
-            Polyhedra,
-            Patches,
-            Contours,
-            Pictures,
-        ],
+        writes: DRAWN,
     },
 ];

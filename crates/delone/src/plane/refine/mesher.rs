@@ -375,6 +375,19 @@ impl<'a> Mesher<'a> {
         self.count += 1;
     }
 
+    /// Turns the edges around a vertex so that the one with the lexicographically least head is first: sums are rounded in an order that does
+    /// not depend on where a star is said to begin.
+    pub(super) fn turn_to_least(&self, star: &mut [EdgeId]) {
+        let head = |e: &EdgeId| self.layer.mesh.head(*e);
+        let order = |p: Place, q: Place| {
+            p.is_ghost()
+                .cmp(&q.is_ghost())
+                .then_with(|| delone_predicates::lexicographic(self.point(p), self.point(q)))
+        };
+        let least = (0..star.len()).min_by(|&i, &j| order(head(&star[i]), head(&star[j])));
+        star.rotate_left(least.unwrap_or(0));
+    }
+
     /// Looks at what is new around a vertex.
     pub(super) fn look_around(&mut self, v: Place) {
         let first = self.layer.mesh.incident[v.index()];

@@ -8,7 +8,7 @@
 //!
 //! Cost: O(1) for each vertex and round, as long as degrees are.
 
-use delone_predicates::{circumcenter, lexicographic, orient2d};
+use delone_predicates::{circumcenter, orient2d};
 
 use super::mesher::Mesher;
 use super::shape::Shape;
@@ -27,10 +27,7 @@ impl Mesher<'_> {
     fn improve(&mut self, v: Place) {
         let own = self.point(v);
         let mut star: Vec<EdgeId> = self.layer.mesh.spokes(v).collect();
-        // Sums are rounded in an order that does not depend on where a star is said to begin.
-        let head = |e: &EdgeId| self.point(self.layer.mesh.head(*e));
-        let least = (0..star.len()).min_by(|&i, &j| lexicographic(head(&star[i]), head(&star[j])));
-        star.rotate_left(least.unwrap_or(0));
+        self.turn_to_least(&mut star);
         let Some(goal) = self.goal(&star) else { return };
         let (worst, sum) = self.sharpness(&star);
         let worst = worst.max(self.rules.squared_cosine.min(1.0));

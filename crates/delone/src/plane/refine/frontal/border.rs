@@ -56,7 +56,10 @@ impl Frontal<'_, '_> {
             }
             self.mesher.rules.go_on(self.mesher.count)?;
             self.find_sizes(|frontal, p, q| frontal.is_joined(&corners, p, q));
-            for line in &lines {
+            // Pieces of an earlier refinement are as short as they are for reasons of their own.
+            let is_whole =
+                |line: &&Line| line.ends.iter().all(|end| self.mesher.known[end.index()].is_input());
+            for line in lines.iter().filter(is_whole) {
                 for end in line.ends {
                     self.sizes.set(end, self.sizes.at(end).min(line.length));
                 }

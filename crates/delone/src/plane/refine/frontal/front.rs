@@ -15,7 +15,7 @@ use delone_predicates::lexicographic;
 
 use super::super::free::Met;
 use super::super::mesher::Known;
-use super::super::shape::{Shape, squared};
+use super::super::shape::{Shape, squared, squared_height};
 use super::{Frontal, distance};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -263,11 +263,10 @@ impl Frontal<'_, '_> {
     fn is_near_constraint(&self, e: EdgeId, q: [f64; 2], size: f64) -> bool {
         let mesh = &self.mesher.layer.mesh;
         let [a, b] = [mesh.tail(e), mesh.head(e)].map(|p| self.point(p));
-        let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
         let square = squared(a, b);
-        let along = u[0] * w[0] + u[1] * w[1];
-        let height = (u[0] * w[1] - u[1] * w[0]).abs() / square.sqrt();
-        (0.0..=square).contains(&along) && height < LEAST_HEIGHT * size.min(HEIGHT_OF_LENGTH * square.sqrt())
+        let along = (b[0] - a[0]) * (q[0] - a[0]) + (b[1] - a[1]) * (q[1] - a[1]);
+        let least = LEAST_HEIGHT * size.min(HEIGHT_OF_LENGTH * square.sqrt());
+        (0.0..=square).contains(&along) && squared_height(q, [a, b]) < least * least
     }
 }
 

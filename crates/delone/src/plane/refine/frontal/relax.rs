@@ -13,7 +13,6 @@
 use delone_predicates::{lexicographic, orient2d};
 
 use super::Frontal;
-use super::sizes::turn_to_least;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
 use crate::sorting;
@@ -85,7 +84,7 @@ impl Frontal<'_, '_> {
         let mesh = &self.mesher.layer.mesh;
         star.clear();
         star.extend(mesh.spokes(p));
-        turn_to_least(self.mesher, star);
+        self.mesher.turn_to_least(star);
         blades.clear();
         let size = self.sizes.at(p);
         blades.extend(star.iter().map(|&e| {

@@ -180,12 +180,12 @@ impl Frontal<'_, '_> {
         Ok(radii)
     }
 
-    /// Whether two vertices are on constraints that meet, and no gap to each other: on the same one, or not beyond the rings of a corner
-    /// that both come from.
+    /// Whether what is between two vertices is no gap: both are on one constraint, or on two that meet, not beyond the rings of their corner;
+    /// or one is of an earlier refinement, whose edges are as they were to be.
     pub(super) fn is_joined(&self, corners: &Corners, p: Place, q: Place) -> bool {
         let [one, other] = [p, q].map(|v| self.mesher.known[v.index()]);
         if one.is_free() || other.is_free() {
-            return false;
+            return true;
         }
         let is_same = one.on.iter().all(|end| other.on.contains(end));
         one.on.into_iter().any(|o| {

@@ -57,47 +57,16 @@ impl Sizes {
         self.of[p.index()] = size;
     }
 
-    /// Gives vertices that refinement added the mean length of their edges.
-    pub(super) fn resize(&mut self, mesher: &Mesher) {
-        let known = self.of.len();
+    /// Gives vertices that refinement added, some at places of others that went, the mean length of their edges.
+    pub(super) fn resize(&mut self, mesher: &Mesher, added: &[Place]) {
         let mesh = &mesher.layer.mesh;
-        for p in mesh
-            .inhabited()
-            .filter(|p| p.index() >= known || self.of[p.index()].is_infinite())
-            .collect::<Vec<_>>()
-        {
-            let (mut sum, mut count) = (0.0, 0.0);
-            for e in canonical_star(mesher, p).into_iter().filter(|&e| !mesh.head(e).is_ghost()) {
-                sum += distance(mesher.point(p), mesher.point(mesh.head(e)));
-                count += 1.0;
-            }
-            self.set(p, sum / count);
+        for &p in added.iter().filter(|p| mesh.is_vertex(**p)) {
+            let mut star: Vec<EdgeId> = mesh.spokes(p).filter(|&e| !mesh.head(e).is_ghost()).collect();
+            mesher.turn_to_least(&mut star);
+            let lengths = star.iter().map(|&e| distance(mesher.point(p), mesher.point(mesh.head(e))));
+            self.set(p, lengths.sum::<f64>() / star.len() as f64);
         }
     }
-}
-
-/// The edges around a vertex, counter-clockwise from the one whose head is lexicographically least: sums are rounded in this order.
-pub(super) fn canonical_star(mesher: &Mesher, p: Place) -> Vec<EdgeId> {
-    let mut star: Vec<EdgeId> = mesher.layer.mesh.spokes(p).collect();
-    turn_to_least(mesher, &mut star);
-    star
-}
-
-/// Turns edges around a vertex so that the one with the least head is first.
-pub(super) fn turn_to_least(mesher: &Mesher, star: &mut [EdgeId]) {
-    let mesh = &mesher.layer.mesh;
-    let is_before = |e: EdgeId, f: EdgeId| {
-        let [p, q] = [e, f].map(|e| mesh.head(e));
-        !p.is_ghost()
-            && (q.is_ghost() || delone_predicates::lexicographic(mesher.point(p), mesher.point(q)).is_lt())
-    };
-    let mut least = 0;
-    for k in 1..star.len() {
-        if is_before(star[k], star[least]) {
-            least = k;
-        }
-    }
-    star.rotate_left(least);
 }
 
 impl Frontal<'_, '_> {
