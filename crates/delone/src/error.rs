@@ -170,6 +170,16 @@ pub enum Error {
     /// Parts of another triangulation, or of this one before it changed.
     #[error("the parts are of another triangulation, or it has changed since")]
     Parts,
+    /// A triangle that is to be kept and cannot be.
+    #[error("triangle {triangle} near ({}, {}) {flaw}", .near[0], .near[1])]
+    KeptTriangle {
+        /// Its index.
+        triangle: usize,
+        /// The middle of an edge of it, rounded.
+        near: [f64; 2],
+        /// The fault.
+        flaw: &'static str,
+    },
     /// Location by history or by the Delaunay tree is for Delaunay triangulations.
     #[error("a triangulation with constraints cannot be located by history or by the Delaunay tree")]
     OnlyDelaunay,

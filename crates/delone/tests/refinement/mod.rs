@@ -5,4 +5,5 @@ mod bounds;
 mod ends;
 mod frontal;
 mod judge;
+mod kept;
 mod nasty;

@@ -303,7 +303,7 @@ impl Constrained2 {
     }
 
     /// Makes edges free, and returns them.
-    fn free(&mut self, edges: impl IntoIterator<Item = Ends>) -> Vec<EdgeId> {
+    pub(super) fn free(&mut self, edges: impl IntoIterator<Item = Ends>) -> Vec<EdgeId> {
         let mesh = &mut self.graph.base.mesh;
         let mut freed = Vec::new();
         for ends in edges {

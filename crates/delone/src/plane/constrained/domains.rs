@@ -132,6 +132,8 @@ pub struct Domains2 {
     rivals: Vec<[usize; 2]>,
     /// The origin of each vertex, by id, if the triangulation was refined.
     pub(in crate::plane) origins: Vec<Origin>,
+    /// The segments that only keep triangles, if it was refined with such.
+    pub(in crate::plane) kept: Vec<SegmentId>,
 }
 
 /// A region.

@@ -12,13 +12,23 @@ use crate::plane::layer::Layer;
 
 impl Layer {
     /// Flips edges that are neither fixed nor Delaunay, starting from some that may be.
-    pub(in crate::plane) fn legalize(&mut self, mut pending: Vec<EdgeId>) {
+    pub(in crate::plane) fn legalize(&mut self, pending: Vec<EdgeId>) {
+        self.legalize_observed(pending, |_, _| ());
+    }
+
+    /// Tells of each flip, by the edge that is new and its twin.
+    pub(in crate::plane) fn legalize_observed(
+        &mut self,
+        mut pending: Vec<EdgeId>,
+        mut flipped: impl FnMut(EdgeId, EdgeId),
+    ) {
         while let Some(e) = pending.pop() {
             if !self.is_illegal(e) {
                 continue;
             }
             let twin = self.mesh.twin(e);
             self.mesh.flip(e);
+            flipped(e, twin);
             // The sides of the quadrilateral stay with the two triangles.
             pending.extend([e.next(), e.previous(), twin.next(), twin.previous()]);
         }

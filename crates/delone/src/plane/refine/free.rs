@@ -36,10 +36,11 @@ impl Mesher<'_> {
         let reach = if is_for_size { f64::INFINITY } else { self.rules.reach };
         let center = shape.center(reach);
         let q = if center.iter().all(|x| x.is_finite()) { center } else { shape.center(self.rules.reach) };
-        match self.walk(shape.shortest, q) {
-            Met::Triangle(t) => self.place(task, q, t, false),
-            Met::Constraint(e) => self.split_first(task, &[e], false),
-            Met::Nothing => self.leave(task.corners, Reason::Precision),
+        match self.reach(shape.shortest, q) {
+            Some(Met::Triangle(t)) => self.place(task, q, t, false),
+            Some(Met::Constraint(e)) => self.split_first(task, &[e], false),
+            Some(Met::Nothing) => self.leave(task.corners, Reason::Precision),
+            None => {}
         }
     }
 
@@ -104,7 +105,7 @@ impl Mesher<'_> {
             .border()
             .iter()
             .map(|edge| edge.1)
-            .filter(|&e| mesh.is_fixed(e))
+            .filter(|&e| self.is_constraint(e))
             .filter(|&e| {
                 let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
                 if is_last { is_flat(q, ends) } else { self.is_too_near(q, ends) }

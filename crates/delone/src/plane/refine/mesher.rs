@@ -7,7 +7,7 @@
 //! triangle of the first triangulation all vertices see each other, hence there are finitely many. Vertices are removed only where
 //! a constraint is split, and there are finitely many of these splits.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::queue::{Fault, Queue, Task};
 use super::report::Reason;
@@ -16,7 +16,7 @@ use super::shape::{Shape, squared, squared_obtuseness};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::Mesh2;
-use crate::plane::constrained::Origin;
+use crate::plane::constrained::{Origin, sorted};
 use crate::plane::layer::Layer;
 use crate::prefetch::prefetch;
 
@@ -90,6 +90,8 @@ pub(super) struct Mesher<'a> {
     pub(super) refused: BTreeMap<[Place; 2], Reason>,
     /// Triangles that cannot be mended.
     pub(super) left: Vec<([Place; 3], Reason)>,
+    /// Fixed edges that are no constraints: they keep triangles that were given, until a vertex comes into the circle of one.
+    pub(super) kept: BTreeSet<[Place; 2]>,
 }
 
 /// The result of a refinement.
@@ -103,11 +105,19 @@ pub(super) struct Done {
     pub(super) left: Vec<([Place; 3], Reason)>,
     /// Why constraints were not split.
     pub(super) refused: BTreeMap<[Place; 2], Reason>,
+    /// Edges that keep triangles.
+    pub(super) kept: BTreeSet<[Place; 2]>,
 }
 
 impl<'a> Mesher<'a> {
     /// For triangles in domains, all of whose borders are fixed. If they were refined before it is known where vertices come from.
-    pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue, origins: &[Origin]) -> Self {
+    pub(super) fn new(
+        layer: &'a mut Layer,
+        rules: &'a Rules<'a>,
+        queue: Queue,
+        origins: &[Origin],
+        kept: BTreeSet<[Place; 2]>,
+    ) -> Self {
         let scale = |p: Place| {
             let own = layer.points[p.index()];
             let others = layer.mesh.spokes(p).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
@@ -134,6 +144,7 @@ impl<'a> Mesher<'a> {
             tips: BTreeMap::new(),
             refused: BTreeMap::new(),
             left: Vec::new(),
+            kept,
         }
     }
 
@@ -149,7 +160,7 @@ impl<'a> Mesher<'a> {
     pub(super) fn run(&mut self) -> Result<(), Error> {
         let constraints: Vec<EdgeId> = {
             let mesh = &self.layer.mesh;
-            mesh.fixed_edges().collect()
+            mesh.fixed_edges().filter(|&e| self.is_constraint(e)).collect()
         };
         constraints.into_iter().for_each(|e| self.look_at_constraint(e));
         for t in self.layer.mesh.triangles().collect::<Vec<_>>() {
@@ -178,7 +189,7 @@ impl<'a> Mesher<'a> {
 
     /// Gives back what memory the work has taken.
     pub(super) fn finish(self) -> Done {
-        Done { new: self.alive(), known: self.known, left: self.left, refused: self.refused }
+        Done { new: self.alive(), known: self.known, left: self.left, refused: self.refused, kept: self.kept }
     }
 
     /// The new vertices that there are, in the order in which they came.
@@ -210,6 +221,19 @@ impl<'a> Mesher<'a> {
         };
         // Its triangle may be another one by now.
         Some(task.edge).filter(is_there).or_else(|| mesh.edge_between(a, b).filter(is_there))
+    }
+
+    /// Whether an edge is a constraint: fixed, and not only there to keep triangles.
+    #[inline]
+    pub(super) fn is_constraint(&self, e: EdgeId) -> bool {
+        self.layer.mesh.is_fixed(e) && !self.is_kept(e)
+    }
+
+    /// Whether a fixed edge is only there to keep triangles.
+    #[inline]
+    pub(super) fn is_kept(&self, e: EdgeId) -> bool {
+        let mesh = &self.layer.mesh;
+        !self.kept.is_empty() && self.kept.contains(&sorted([mesh.tail(e), mesh.head(e)]))
     }
 
     /// Whether a triangle is in a domain.

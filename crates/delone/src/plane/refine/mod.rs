@@ -15,6 +15,7 @@
 
 mod free;
 mod frontal;
+mod kept;
 mod mesher;
 mod queue;
 mod report;
@@ -28,7 +29,7 @@ mod survey;
 pub use report::{Reason, RefinementReport2, Unrefined2};
 pub use shapes::Shapes2;
 
-use super::constrained::{Constrained2, Domains2, Fill, Origin};
+use super::constrained::{Constrained2, Domains2, Fill, Origin, SegmentId};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, VertexId};
 use crate::points::survey as bounds;
@@ -82,6 +83,7 @@ pub struct Refinement<'a> {
     stop: Option<&'a dyn Fn() -> bool>,
     watch: Option<&'a dyn Fn(usize)>,
     fill: Fill<'a>,
+    triangles: &'a [[VertexId; 3]],
 }
 
 /// A mesh that was refined.
@@ -94,6 +96,9 @@ pub struct Refined2 {
     pub domains: Domains2,
     /// Counts of what was done, and what could not be done.
     pub report: RefinementReport2,
+    /// The segments that are there only because triangles were given and stay ([`Refinement::triangles`]): they are no borders. A mesh that is
+    /// refined again, filled by [`Fill::Parts`], knows them.
+    pub kept: Vec<SegmentId>,
 }
 
 impl std::fmt::Debug for Refinement<'_> {
@@ -154,6 +159,7 @@ impl<'a> Refinement<'a> {
             stop: None,
             watch: None,
             fill: Fill::All,
+            triangles: &[],
         }
     }
 
@@ -343,6 +349,25 @@ impl<'a> Refinement<'a> {
         Self { fill, ..self }
     }
 
+    /// Triangles that are there first, whether they are Delaunay or not, and stay until a new vertex comes into the circle of one: a mesh
+    /// from elsewhere is refined where it has to be, and is itself anywhere else. Edges that only keep triangles are in
+    /// [`Refined2::kept`]. Where lengths of edges are wanted ([`Self::edge`]), no triangles are kept.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement, VertexId};
+    ///
+    /// // Two triangles of a flat quadrilateral: the diagonal is the longer one.
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, -3], [8, 0], [4, 3]], &[])?;
+    /// let given = [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(VertexId::new));
+    /// let made = Refinement::new().triangles(&given).run(&mut c)?;
+    /// assert_eq!((c.triangle_count(), made.kept.len()), (2, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[must_use]
+    pub fn triangles(self, triangles: &'a [[VertexId; 3]]) -> Self {
+        Self { triangles, ..self }
+    }
+
     /// Refines a triangulation. New vertices have the next ids, in the order in which they came; segments are split, and bend by
     /// a unit in the last place where a new vertex is not exactly on them, which is much for what is hardly wider than that.
     ///
@@ -351,7 +376,8 @@ impl<'a> Refinement<'a> {
     /// # Errors
     /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] and
     /// [`Error::Parts`] as [`Constrained2::domains`]; nothing has changed then. [`Error::Size`] if a bound that is asked for a place
-    /// is not positive, [`Error::Stopped`]: the triangulation is a valid one then, refined in part.
+    /// is not positive, [`Error::Stopped`]: the triangulation is a valid one then, refined in part. [`Error::KeptTriangle`] and
+    /// [`Error::NoSuchVertex`] for triangles that cannot be kept; nothing has changed.
     ///
     /// ```
     /// use delone::{Constrained2, Refinement};
@@ -371,7 +397,7 @@ impl<'a> Refinement<'a> {
         // Lengths are as they were to be by now.
         let (edge, edge_at) = (None, None);
         let (max_vertices, fill) = (Some(c.vertex_count()), Fill::Parts(&first.domains));
-        let steeper = Refinement { edge, edge_at, max_vertices, fill, ..*self };
+        let steeper = Refinement { edge, edge_at, max_vertices, fill, triangles: &[], ..*self };
         let mut refined = steeper.run_to_the_end(c)?;
         refined.report.inside += first.report.inside;
         refined.report.on_constraints += first.report.on_constraints;
@@ -381,18 +407,27 @@ impl<'a> Refinement<'a> {
     fn run_to_the_end(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         let mut domains = c.domains(&self.fill)?;
         self.check_count(c, &domains)?;
+        let is_frontal = self.edge.is_some() || self.edge_at.is_some();
+        let triangles = if is_frontal { &[] } else { self.triangles };
+        let original = (!triangles.is_empty()).then(|| c.clone());
         c.close(&domains)?;
+        let known = c.take_kept(&domains.kept);
         let before = c.begin_refinement(&mut domains);
+        let kept = match c.keep_triangles(triangles, known, is_frontal) {
+            Ok(kept) => kept,
+            Err(error) => {
+                original.into_iter().for_each(|original| *c = original);
+                return Err(error);
+            }
+        };
+        drop(original);
         let rules = Rules::new(self, &domains, &before);
         let layer = c.layer();
         let bounds = bounds(&layer.points).0;
         let queue = Queue::new(&bounds, self.min_angle > STEEP_ANGLE);
-        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins);
-        let mut ran = if self.edge.is_some() || self.edge_at.is_some() {
-            Frontal::new(&mut mesher, &bounds, self.growth).run()
-        } else {
-            mesher.run()
-        };
+        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins, kept);
+        let mut ran =
+            if is_frontal { Frontal::new(&mut mesher, &bounds, self.growth).run() } else { mesher.run() };
         if self.smoothing > 0 && ran.is_ok() {
             (0..self.smoothing).for_each(|_| mesher.smooth());
             ran = mesher.run();
@@ -401,9 +436,10 @@ impl<'a> Refinement<'a> {
         let added = c.end_refinement(&before, &done.new)?;
         let report = survey::report(c.layer(), &rules, added, &done);
         let mut domains = c.domains_of_tags(&before, domains);
+        c.note_kept(&mut domains, &done.kept)?;
         ran?;
         domains.origins = origins(c, &done);
-        Ok(Refined2 { domains, report })
+        Ok(Refined2 { kept: domains.kept.clone(), domains, report })
     }
 
     /// Whether there may be as many triangles as the sizes ask for, which are the same everywhere.

@@ -66,7 +66,8 @@ impl Mesher<'_> {
         star.iter().all(|e| {
             let link = e.next();
             let ends = [mesh.tail(link), mesh.head(link)].map(|v| self.point(v));
-            orient2d(ends[0], ends[1], q).is_positive() && !(mesh.is_fixed(link) && self.is_too_near(q, ends))
+            orient2d(ends[0], ends[1], q).is_positive()
+                && !(self.is_constraint(link) && self.is_too_near(q, ends))
         })
     }
 

@@ -35,6 +35,7 @@ impl Mesher<'_> {
             e = self.clear(e);
         }
         let wanted = self.where_to_split(e, meets);
+        let e = self.make_way(e, wanted);
         let first = Some(wanted).filter(|&q| self.is_clear(e, q));
         let Some(q) = first.or_else(|| around(wanted).into_iter().find(|&q| self.is_clear(e, q))) else {
             self.refuse(e, Reason::Precision);
@@ -69,8 +70,8 @@ impl Mesher<'_> {
     fn meets(&self, e: EdgeId) -> [bool; 2] {
         let mesh = &self.layer.mesh;
         let f = mesh.twin(e);
-        let is_fixed = |side: EdgeId| self.is_inside(side.triangle()) && mesh.is_fixed(side);
-        [is_fixed(e.previous()) || is_fixed(f.next()), is_fixed(e.next()) || is_fixed(f.previous())]
+        let is_other = |side: EdgeId| self.is_inside(side.triangle()) && self.is_constraint(side);
+        [is_other(e.previous()) || is_other(f.next()), is_other(e.next()) || is_other(f.previous())]
     }
 
     /// Removes the new free vertices that a constraint sees inside of its diametral circle. Gives the constraint, whose triangles may
@@ -146,7 +147,7 @@ impl Mesher<'_> {
             return known;
         }
         let mesh = &self.layer.mesh;
-        let fixed = mesh.spokes(v).filter(|&e| mesh.is_fixed(e)).collect::<Vec<_>>();
+        let fixed = mesh.spokes(v).filter(|&e| self.is_constraint(e)).collect::<Vec<_>>();
         let own = self.point(v);
         let tangent = |k: usize| {
             let pair = [fixed[k], fixed[(k + 1) % fixed.len()]];
@@ -240,7 +241,7 @@ impl Mesher<'_> {
     }
 
     /// A triangle that the point beside an edge is in, or beyond the hull edge of.
-    fn triangle_of(&self, e: EdgeId, q: [f64; 2]) -> TriangleId {
+    pub(super) fn triangle_of(&self, e: EdgeId, q: [f64; 2]) -> TriangleId {
         let mesh = &self.layer.mesh;
         let side = orient2d(self.point(mesh.tail(e)), self.point(mesh.head(e)), q);
         let (left, right) = (e.triangle(), mesh.twin(e).triangle());
@@ -303,7 +304,7 @@ impl Mesher<'_> {
         let mut spoke = first;
         loop {
             for e in [spoke, spoke.next()] {
-                if self.layer.mesh.is_fixed(e) {
+                if self.is_constraint(e) {
                     self.look_at_constraint(e);
                 }
             }

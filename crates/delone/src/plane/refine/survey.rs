@@ -2,7 +2,7 @@
 //!
 //! Cost: O(1) a triangle.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use delone_predicates::angle;
 
@@ -11,6 +11,7 @@ use super::report::{BIN, Reason, RefinementReport2, Unrefined2};
 use super::rules::Rules;
 use super::shape::Shape;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::plane::constrained::sorted;
 use crate::plane::layer::Layer;
 
 /// Measures what is inside.
@@ -20,7 +21,7 @@ pub(super) fn report(
     [inside, on_constraints]: [usize; 2],
     done: &Done,
 ) -> RefinementReport2 {
-    let Done { left, refused, .. } = done;
+    let Done { left, refused, kept, .. } = done;
     let mut report = RefinementReport2 { inside, on_constraints, ..RefinementReport2::default() };
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
     // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
@@ -51,7 +52,7 @@ pub(super) fn report(
             let corners = [layer.mesh.tail(e), layer.mesh.head(e), layer.mesh.tip(e)];
             let reason = why.get(&corners).copied().unwrap_or(Reason::InputAngle);
             report.left.push(Unrefined2 { triangle: t, reason });
-        } else if let Some(ends) = encroached(layer, t).filter(|_| rules.conforming) {
+        } else if let Some(ends) = encroached(layer, t, kept).filter(|_| rules.conforming) {
             let [v, w] = ends;
             let reason = refused.get(&[v, w]).or_else(|| refused.get(&[w, v]));
             report.left.push(Unrefined2 { triangle: t, reason: reason.copied().unwrap_or(Reason::Kept) });
@@ -65,11 +66,12 @@ pub(super) fn report(
 }
 
 /// The ends of a constraint of a triangle whose diametral circle the third corner is in.
-fn encroached(layer: &Layer, t: TriangleId) -> Option<[Place; 2]> {
+fn encroached(layer: &Layer, t: TriangleId, kept: &BTreeSet<[Place; 2]>) -> Option<[Place; 2]> {
     let mesh = &layer.mesh;
     let is_near = |e: &EdgeId| {
         let [o, a, b] = [mesh.tip(*e), mesh.tail(*e), mesh.head(*e)].map(|v| layer.points[v.index()]);
-        mesh.is_fixed(*e) && angle(o, a, b).is_negative()
+        let is_constraint = mesh.is_fixed(*e) && !kept.contains(&sorted([mesh.tail(*e), mesh.head(*e)]));
+        is_constraint && angle(o, a, b).is_negative()
     };
     let near = [0, 1, 2].map(|k| t.edge(k)).into_iter().find(is_near);
     near.map(|e| [mesh.tail(e), mesh.head(e)])
