@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use delone::{
     Ask as _, Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement,
-    RegionSeed2, Seeds2, Shapes2, TriangleId, Triangulation as _,
+    RegionSeed2, Seeds2, Shapes2, TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
@@ -59,6 +59,10 @@ pub struct Wishes<'py> {
     /// An area for each triangle of a mesh: of the one that is refined again, or else of this one.
     max_areas: Option<PyReadonlyArray1<'py, f64>>,
     of: Option<Bound<'py, Constrained>>,
+    /// Corners of triangles that stay until a vertex comes near.
+    triangles: Option<PyReadonlyArray2<'py, i64>>,
+    /// A function of corners and area.
+    refine_if: Option<Bound<'py, PyAny>>,
 }
 
 /// The plan without Python objects.
@@ -75,6 +79,15 @@ struct Plan {
     keep: Keep,
     conforming: bool,
     smooth: usize,
+    triangles: Vec<[usize; 3]>,
+}
+
+/// What Python or a field of numbers says by place.
+struct Said<'a> {
+    length: Option<&'a dyn Fn([f64; 2]) -> f64>,
+    refine_if: Option<&'a dyn Fn([[f64; 2]; 3], f64) -> bool>,
+    areas: &'a Field,
+    stop: &'a dyn Fn() -> bool,
 }
 
 /// Why there is no mesh.
@@ -193,7 +206,11 @@ impl Mesh {
                 if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
                     continue;
                 }
-                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < this.given);
+                let covering = c.covering(e);
+                if covering.iter().all(|on| this.refined.kept.binary_search(&on.segment).is_ok()) {
+                    continue;
+                }
+                let first = covering.into_iter().min().filter(|on| on.segment.index() < this.given);
                 let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
                 if first.is_some_and(|on| !on.is_forward) {
                     pair.reverse();
@@ -260,27 +277,48 @@ impl Mesh {
         areas: Option<Field>,
         wishes: Wishes<'_>,
     ) -> PyResult<Self> {
-        let (plan, size) = wishes.plan()?;
-        let values = match size {
-            Some(function) if function.is_callable() => {
-                let asked = Asked::new(function);
-                let areas = areas.unwrap_or(Field::Everywhere);
-                let at = |at| asked.length(at);
-                let done = plan.refine(from, given, Some(&at), &areas, &|| asked.has_failed());
-                asked.end()?;
-                return Ok(done?);
+        let (plan, size, refine_if) = wishes.plan()?;
+        let areas = areas.unwrap_or(Field::Everywhere);
+        let is_function = size.as_ref().is_some_and(|size| size.is_callable());
+        let values = match &size {
+            Some(values) if !is_function => {
+                Some(values.extract::<PyReadonlyArray1<f64>>()?.as_slice()?.to_vec())
             }
-            Some(values) => Some(values.extract::<PyReadonlyArray1<f64>>()?.as_slice()?.to_vec()),
-            None => None,
+            _ => None,
         };
-        let done = while_wanted(py, LONG, move |wanted| {
-            let lengths = match values {
-                Some(values) => Field::lengths(from.0.points()[..values.len()].to_vec(), values)?,
-                None => Field::Everywhere,
+        let lengths = move |points: &[[f64; 2]]| match values {
+            Some(values) => Field::lengths(points[..values.len()].to_vec(), values),
+            None => Ok(Field::Everywhere),
+        };
+        if is_function || refine_if.is_some() {
+            let asked = Asked::new(py);
+            let lengths = lengths(from.0.points()).map_err(python_error)?;
+            let length = |at| match &size {
+                Some(function) if is_function => asked.length(function, at),
+                _ => lengths.length(at),
             };
-            let areas = areas.unwrap_or(Field::Everywhere);
+            let is_refused =
+                |corners, area| refine_if.as_ref().is_some_and(|test| asked.test(test, corners, area));
+            let said = Said {
+                length: (is_function || lengths.is_asked()).then_some(&length),
+                refine_if: refine_if.is_some().then_some(&is_refused),
+                areas: &areas,
+                stop: &|| asked.has_failed(),
+            };
+            let done = plan.refine(from, given, &said);
+            asked.end()?;
+            return Ok(done?);
+        }
+        let done = while_wanted(py, LONG, move |wanted| {
+            let lengths = lengths(from.0.points())?;
             let length = |at| lengths.length(at);
-            plan.refine(from, given, lengths.is_asked().then_some(&length as _), &areas, &|| !wanted.is())
+            let said = Said {
+                length: lengths.is_asked().then_some(&length),
+                refine_if: None,
+                areas: &areas,
+                stop: &|| !wanted.is(),
+            };
+            plan.refine(from, given, &said)
         });
         Ok(done??)
     }
@@ -308,7 +346,7 @@ impl<'py> Wishes<'py> {
     }
 
     /// Separates the plain options from the rest.
-    fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>)> {
+    fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>)> {
         let region = |row: &[f64]| RegionSeed2::new([row[0], row[1]]).max_area(row[2]);
         if self.regions.shape()[1] != 3 {
             return Err(PyValueError::new_err("regions are rows of three numbers"));
@@ -322,6 +360,10 @@ impl<'py> Wishes<'py> {
             "border" => Keep::Border,
             "constraints" => Keep::Constraints,
             other => return Err(PyValueError::new_err(format!("nothing to keep is called {other}"))),
+        };
+        let triangles = match &self.triangles {
+            Some(rows) => triples(rows)?,
+            None => Vec::new(),
         };
         let Self { fill, min_angle, max_area, max_edge, edge, growth, max_vertices, .. } = self;
         let Self { conforming, smooth, .. } = self;
@@ -337,8 +379,9 @@ impl<'py> Wishes<'py> {
             keep,
             conforming,
             smooth,
+            triangles,
         };
-        Ok((plan, self.size))
+        Ok((plan, self.size, self.refine_if))
     }
 }
 
@@ -347,10 +390,9 @@ impl Plan {
         &self,
         (mut made, known): (Constrained2, Option<Domains2>),
         given: usize,
-        length: Option<&dyn Fn([f64; 2]) -> f64>,
-        areas: &Field,
-        stop: &dyn Fn() -> bool,
+        said: &Said,
     ) -> Result<Mesh, Failed> {
+        let Said { length, refine_if, areas, stop } = *said;
         let fill = match (&known, self.fill.as_str()) {
             (Some(known), _) => Fill::Parts(known),
             (None, "even-odd") => Fill::EvenOdd,
@@ -360,13 +402,21 @@ impl Plan {
         };
         self.make_room(&made, &fill)?;
         let area = |at| areas.area(at);
+        let first = first_of_equals(&made);
+        let corner = |i: usize| first.get(i).copied().unwrap_or(VertexId::new(i));
+        let triangles: Vec<[VertexId; 3]> =
+            self.triangles.iter().map(|corners| corners.map(corner)).collect();
         let mut wanted = Refinement::new()
             .min_angle(self.min_angle)
             .keep(self.keep)
             .conforming(self.conforming)
             .fill(fill)
             .smooth(self.smooth)
+            .triangles(&triangles)
             .stop_if(stop);
+        if let Some(test) = refine_if {
+            wanted = wanted.refine_if(test);
+        }
         if let Some(length) = length {
             wanted = if self.edge.is_some() { wanted.edge_at(length) } else { wanted.size(length) };
         }
@@ -413,6 +463,22 @@ impl Plan {
         }
         Err(Failed::Memory(least))
     }
+}
+
+/// For each point the vertex that it is, or that it repeats.
+fn first_of_equals(made: &Constrained2) -> Vec<VertexId> {
+    let mut first: Vec<VertexId> = (0..made.points().len()).map(VertexId::new).collect();
+    made.duplicates().for_each(|duplicate| first[duplicate.point] = duplicate.vertex);
+    first
+}
+
+/// Rows of three indices.
+fn triples(rows: &PyReadonlyArray2<'_, i64>) -> PyResult<Vec<[usize; 3]>> {
+    if rows.shape()[1] != 3 {
+        return Err(PyValueError::new_err("triangles are rows of three indices"));
+    }
+    let (corners, _) = rows.as_slice()?.as_chunks::<3>();
+    Ok(corners.iter().map(|corners| corners.map(index)).collect())
 }
 
 /// The name of a reason.

@@ -5,6 +5,7 @@
 use std::cell::{Cell, RefCell};
 
 use delone::{Ask, Constrained2, Delaunay2, Error, Triangulation as _, VertexId};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
 /// A number for each place, asked for without Python.
@@ -67,34 +68,49 @@ fn linear(d: &Delaunay2, values: &[f64], at: [f64; 2]) -> Option<f64> {
 /// Questions between looking for signals.
 const QUESTIONS: u32 = 256;
 
-/// A function of Python from coordinates to a length. Its first exception ends the work, and is kept.
+/// Functions of Python that are asked. The first exception ends the work, and is kept.
 pub struct Asked<'py> {
-    function: Bound<'py, PyAny>,
+    py: Python<'py>,
     error: RefCell<Option<PyErr>>,
     count: Cell<u32>,
 }
 
 impl<'py> Asked<'py> {
-    pub fn new(function: Bound<'py, PyAny>) -> Self {
-        Self { function, error: RefCell::new(None), count: Cell::new(0) }
+    pub fn new(py: Python<'py>) -> Self {
+        Self { py, error: RefCell::new(None), count: Cell::new(0) }
     }
 
     /// The length at a place; NaN, which is no bound, after an exception.
-    pub fn length(&self, at: [f64; 2]) -> f64 {
+    pub fn length(&self, function: &Bound<'py, PyAny>, at: [f64; 2]) -> f64 {
+        self.answer(|| function.call1((at[0], at[1]))?.extract()).unwrap_or(f64::NAN)
+    }
+
+    /// Whether a triangle is to be refined; not after an exception.
+    pub fn test(&self, function: &Bound<'py, PyAny>, corners: [[f64; 2]; 3], area: f64) -> bool {
+        let ask = || {
+            let corners = PyArray1::from_slice(self.py, corners.as_flattened()).reshape([3, 2])?;
+            function.call1((corners, area))?.is_truthy()
+        };
+        self.answer(ask).unwrap_or(false)
+    }
+
+    /// An answer; none after an exception.
+    fn answer<A>(&self, ask: impl FnOnce() -> PyResult<A>) -> Option<A> {
         if self.error.borrow().is_some() {
-            return f64::NAN;
+            return None;
         }
         self.count.set(self.count.get().wrapping_add(1));
-        let signals = || match self.count.get() % QUESTIONS {
-            0 => self.function.py().check_signals(),
+        let signals = match self.count.get() % QUESTIONS {
+            0 => self.py.check_signals(),
             _ => Ok(()),
         };
-        let answer =
-            signals().and_then(|()| self.function.call1((at[0], at[1]))).and_then(|said| said.extract());
-        answer.unwrap_or_else(|error| {
-            *self.error.borrow_mut() = Some(error);
-            f64::NAN
-        })
+        match signals.and_then(|()| ask()) {
+            Ok(answer) => Some(answer),
+            Err(error) => {
+                *self.error.borrow_mut() = Some(error);
+                None
+            }
+        }
     }
 
     /// Whether there was an exception.

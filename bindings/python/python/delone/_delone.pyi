@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._dtm import Wanted as DtmWanted
-from ._mesh import Wishes
 from ._store import Plan
+from ._wishes import Wishes
 
 __all__ = [
     "MERGE_AUTO",

@@ -6,6 +6,7 @@ function of the place. Cost: a location for each new vertex.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,9 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._constrained import ConstrainedDelaunay
-from ._mesh import Mesh, Wishes
+from ._mesh import Mesh
 from ._points import as_numbers, as_points, as_segments
+from ._sides import BETWEEN, all_edges, among, keys_of, pairs_of, rows_of, sides_of
 from ._switches import Switches
+from ._wishes import Test, Wishes
 
 _KEYS = (
     *("vertices", "vertex_attributes", "vertex_markers"),
@@ -25,9 +28,6 @@ _KEYS = (
     *("segments", "segment_markers", "holes", "regions"),
     *("neighbors", "edges", "edge_markers"),
 )
-
-#: The origin of a segment that nobody gave, and which results do not have: an edge between materials.
-_HIDDEN = -2
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -133,62 +133,48 @@ def _triangles(tri: Mapping[str, ArrayLike], count: int) -> Ints:
     return corners
 
 
-def refined(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
+def refined(given: Given, switches: Switches, refine_if: Test | None) -> tuple[Mesh, Ints, Old]:
     """The mesh; for each of its segments the segment that was given, or -1; and what was there before."""
     if switches.refine:
-        return _refined_again(given, switches)
+        return _refined_again(given, switches, refine_if)
     old = Old(given)
     # Of two in one part the last one counts.
     holes, regions = old.inside(given.holes), old.inside(given.regions)[::-1]
     areas = regions[:, 3] if switches.areas else np.zeros(len(regions))
-    wishes = _wishes(switches, "seeds" if switches.poly else "all")
+    wishes = _wishes(switches, "seeds" if switches.poly else "all", refine_if)
     wishes["holes"] = np.ascontiguousarray(holes)
     wishes["regions"] = np.column_stack([regions[:, :2], np.where(areas > 0, areas, np.inf)])
     made = Mesh._make((given.vertices, given.segments, True), wishes, np.array(regions[:, 2]))
     return made, made.segment_origin, old
 
 
-def _refined_again(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
-    """What is inside is what an odd number of borders is around: of those that are inside there are two each.
-
-    Edges between triangles of other attributes are segments too, so no new triangle has a part of both.
-    """
+def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> tuple[Mesh, Ints, Old]:
+    """The triangles that were given stay until a vertex comes near; where they overlap they are made anew, with a warning."""
     old = Old(given)
-    keys, sides, counts = np.unique(_keys(_edges(given.triangles)), return_inverse=True, return_counts=True)
-    border = _pairs(keys[counts % 2 == 1])
-    own = np.sort(given.segments, axis=1)
-    is_border = _among(own, border)
-    twice = np.flatnonzero(~is_border)
-    missing = border[~_among(border, own)]
-    on_border = np.flatnonzero(is_border)
-    _, firsts = np.unique(_keys(own[on_border]), return_index=True)
-    on_border = on_border[np.sort(firsts)] if len(on_border) else on_border
-    between = _pairs(keys[_between(sides, counts, given.triangle_attributes)])
-    between = between[~_among(between, own)]
-    segments = np.concatenate([own[on_border], own[twice], own[twice], missing, between, between])
-    unknown = np.repeat([-1, _HIDDEN], [len(missing), 2 * len(between)])
-    origins = np.concatenate([on_border, twice, twice, unknown]).astype(np.int64)
-    wishes = _wishes(switches, "even-odd")
+    segments, origins = sides_of(given.triangles, given.segments, given.triangle_attributes)
+    wishes = _wishes(switches, "even-odd", refine_if)
     if given.triangle_areas is not None:
         wishes["of"] = old.triangulation._core
         wishes["max_areas"] = np.append(given.triangle_areas, np.inf)[old.rows]
-    made = Mesh._make((given.vertices, np.ascontiguousarray(segments), True), wishes, np.empty(0))
+    origin = (given.vertices, segments, True)
+    try:
+        made = Mesh._make(origin, {**wishes, "triangles": _with_area(given)}, np.empty(0))
+    except ValueError as error:
+        if not str(error).startswith("triangle "):
+            raise
+        warnings.warn(f"{error}: all triangles are made anew", stacklevel=4)
+        made = Mesh._make(origin, wishes, np.empty(0))
     return made, np.append(origins, -1)[made.segment_origin], old
 
 
-def _between(sides: Ints, counts: Ints, attributes: Floats) -> NDArray[np.bool_]:
-    """Which edges are between two triangles of other attributes; `sides` are the edges of each triangle, three a row."""
-    if not attributes.size:
-        return np.zeros(len(counts), bool)
-    _, names = np.unique(attributes, axis=0, return_inverse=True)
-    of_sides = np.repeat(names.ravel(), 3)
-    least, largest = np.full(len(counts), len(names)), np.full(len(counts), -1)
-    np.minimum.at(least, sides.ravel(), of_sides)
-    np.maximum.at(largest, sides.ravel(), of_sides)
-    return np.asarray((counts == 2) & (least < largest))
+def _with_area(given: Given) -> Ints:
+    """The triangles whose corners are not exactly on a line: Triangle leaves others, and they hold nothing."""
+    corners = given.vertices[given.triangles]
+    (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return np.ascontiguousarray(given.triangles[ux * vy != uy * vx])
 
 
-def _wishes(switches: Switches, fill: str) -> Wishes:
+def _wishes(switches: Switches, fill: str, refine_if: Test | None) -> Wishes:
     return {
         "fill": fill,
         "holes": np.empty((0, 2)),
@@ -206,6 +192,8 @@ def _wishes(switches: Switches, fill: str) -> Wishes:
         "size": None,
         "max_areas": None,
         "of": None,
+        "triangles": None,
+        "refine_if": refine_if,
     }
 
 
@@ -221,7 +209,7 @@ class Old:
         """With the segments, and with all edges of a mesh that is refined."""
         own = self._given.segments
         if len(self._given.triangles):
-            own = _pairs(np.unique(_keys(np.concatenate([_edges(self._given.triangles), np.sort(own, axis=1)]))))
+            own = pairs_of(np.unique(keys_of(np.concatenate([all_edges(self._given.triangles), np.sort(own, axis=1)]))))
         return ConstrainedDelaunay(self._given.vertices, own, crossings="split")
 
     @cached_property
@@ -235,17 +223,9 @@ class Old:
     @cached_property
     def rows(self) -> Ints:
         """For each triangle the one that was given, or their number where none was."""
-        return self._rows(self._given.triangles)
-
-    def _rows(self, triangles: Ints) -> Ints:
-        given = np.sort(self._first[triangles], axis=1)
-        made = np.sort(self.triangulation.all_triangles, axis=1).astype(np.int64)
-        none = len(given)
-        names, both = np.unique(np.concatenate([given, made]), axis=0, return_inverse=True)
-        both = both.ravel()
-        row = np.full(len(names), none)
-        row[both[:none][::-1]] = np.arange(none)[::-1]
-        return np.asarray(row[both[none:]])
+        given = self._first[self._given.triangles]
+        rows = rows_of(self.triangulation.all_triangles.astype(np.int64), given)
+        return np.where(rows < 0, len(given), rows)
 
     def inside(self, seeds: Floats) -> Floats:
         """Those that are in the hull; Triangle does not mind others."""
@@ -320,7 +300,7 @@ class Result:
         points, attributes = self.mesh.points, self.old.attributes(self.mesh.points)
         is_wanted = s.edges or s.second_order
         keys, firsts, sides = np.unique(
-            _keys(_edges(corners if is_wanted else corners[:0])), return_index=True, return_inverse=True
+            keys_of(all_edges(corners if is_wanted else corners[:0])), return_index=True, return_inverse=True
         )
         # Counter-clockwise in the first of their triangles.
         edges = corners[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)[firsts]
@@ -329,8 +309,8 @@ class Result:
         # For each edge the marker of the segment that it is on. All borders are segments.
         at_edges = np.zeros(len(edges), np.int64)
         if is_wanted:
-            at_edges[np.searchsorted(keys, _keys(np.sort(self.mesh.segments, axis=1)))] = at_segments
-        shown = self.origin != _HIDDEN
+            at_edges[np.searchsorted(keys, keys_of(np.sort(self.mesh.segments, axis=1)))] = at_segments
+        shown = self.origin != BETWEEN
         segments, at_segments, edges_of = self._segments()[shown], at_segments[shown], edges
         if s.jettison:
             used = np.zeros(len(points), bool)
@@ -368,19 +348,19 @@ class Result:
     def _segments(self) -> Ints:
         """The segments of the border with the mesh on their right, others as they were given."""
         segments = self.mesh.segments
-        return np.where(_among(segments, self._border)[:, None], segments[:, ::-1], segments)
+        return np.where(among(segments, self._border)[:, None], segments[:, ::-1], segments)
 
     def _segment_markers(self) -> Ints:
         """Those that were given; of others 1 on the border."""
         markers = np.append(self._given_markers, [0, 0])[self.origin]
-        is_border = _among(np.sort(self.mesh.segments, axis=1), np.sort(self._border, axis=1))
+        is_border = among(np.sort(self.mesh.segments, axis=1), np.sort(self._border, axis=1))
         return np.where((markers == 0) & is_border, 1, markers)
 
     @cached_property
     def _given_markers(self) -> Ints:
         """For each segment that was given the first marker other than 0 of all that have its ends."""
         markers = self.given.segment_markers
-        _, sames = np.unique(_keys(np.sort(self.given.segments, axis=1)), return_inverse=True)
+        _, sames = np.unique(keys_of(np.sort(self.given.segments, axis=1)), return_inverse=True)
         first = np.full(len(markers), len(markers))
         marked = np.flatnonzero(markers)
         np.minimum.at(first, sames[marked], marked)
@@ -443,23 +423,3 @@ def _barycentric(corners: Floats, points: Floats) -> Floats:
     twice = np.maximum(twice, 0)
     total = twice.sum(axis=1, keepdims=True)
     return np.asarray(np.divide(twice, total, out=np.full_like(twice, 1 / 3), where=total > 0))
-
-
-def _edges(triangles: Ints) -> Ints:
-    """The edges of triangles, the lesser end first; those of two twice."""
-    return np.sort(triangles[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
-
-
-def _keys(pairs: Ints) -> Ints:
-    """A number for each pair of indices, in their order; NumPy is many times as fast with numbers as with rows."""
-    return np.asarray((pairs[:, 0] << 32) | pairs[:, 1])
-
-
-def _pairs(keys: Ints) -> Ints:
-    """The pairs that have these numbers."""
-    return np.column_stack([keys >> 32, keys & 0xFFFFFFFF])
-
-
-def _among(rows: Ints, others: Ints) -> NDArray[np.bool_]:
-    """Which pairs are among others."""
-    return np.asarray(np.isin(_keys(rows), _keys(others)))

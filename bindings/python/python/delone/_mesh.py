@@ -4,52 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypedDict, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._errors import restores
-from ._points import as_choice, as_flag, as_index, as_numbers, as_points
+from ._errors import CrossingError, restores
+from ._points import as_choice, as_flag, as_numbers
 from ._polygons import points_and_segments
+from ._sides import rows_of, sides_of
+from ._wishes import FILLS, Size, Test, Wanted, Wishes, flags_of, numbers_of, regions_of, seeds_of, triangles_of, wanted_of
 
 T = TypeVar("T")
-
-#: What an element may be large: a number, a number for each point, or a function of a place.
-Size = float | ArrayLike | Callable[[float, float], float]
-
-
-class Wanted(TypedDict):
-    """What is wanted of a mesh."""
-
-    min_angle: float
-    max_area: float | None
-    max_edge: float | None
-    edge: float | None
-    growth: float
-    max_vertices: int | None
-    keep: str
-    conforming: bool
-    smooth: int
-    size: Callable[[float, float], float] | NDArray[np.float64] | None
-
-
-class Wishes(Wanted):
-    """The same, and what is inside; `_delone.Mesh` takes it."""
-
-    fill: str
-    holes: NDArray[np.float64]
-    #: Places and largest areas, which may be infinite.
-    regions: NDArray[np.float64]
-    keep_concavities: bool
-    #: An area for each triangle: of the mesh that is refined again, or of this triangulation.
-    max_areas: NDArray[np.float64] | None
-    of: _delone.Constrained | None
-
-
-_FILLS = ("all", "even-odd", "nonzero", "seeds")
-_KEPT = ("nothing", "border", "constraints")
 
 
 @dataclass(frozen=True)
@@ -91,6 +58,8 @@ def mesh(
     points: ArrayLike,
     segments: ArrayLike | None = None,
     *,
+    triangles: ArrayLike | None = None,
+    attributes: ArrayLike | None = None,
     holes: ArrayLike | None = None,
     regions: ArrayLike | None = None,
     min_angle: float = 20.0,
@@ -99,6 +68,7 @@ def mesh(
     edge: float | None = None,
     growth: float = 1.2,
     size: Size | None = None,
+    refine_if: Test | None = None,
     max_vertices: int | None = None,
     keep: str = "nothing",
     conforming: bool = False,
@@ -120,6 +90,13 @@ def mesh(
         have them: their corners are the points, their sides the segments, and the mesh is inside.
     segments : array_like of integers, shape (m, 2), optional
         The ends of segments, by indices of points. They may pass through points, overlap and repeat each other.
+    triangles : array_like of integers, shape (t, 3), optional
+        A mesh that there is, by indices of points. Its triangles stay, Delaunay or not, until a new vertex comes near, but where
+        `edge` is given. The inside is what they cover, and their border is a segment each. `parents` tells in which of them each
+        new one is.
+    attributes : array_like of floats, shape (t,), optional
+        A number for each of `triangles`, such as its material: sides between triangles of other numbers are segments, and new
+        triangles have the number of the one that they are in.
     holes : array_like of floats, shape (k, 2), optional
         A point in each hole.
     regions : array_like of floats, shape (k, 2), (k, 3) or (k, 4), optional
@@ -142,6 +119,9 @@ def mesh(
         No edge of a triangle is to be longer than this at its centroid: a number, what a function says of x and y, or linear
         between points that have a number each, on their Delaunay triangulation. Infinite is no bound. With `edge` it is a length
         that is wanted, too.
+    refine_if : function, optional
+        Whether a triangle is to be refined, of its corners, an array (3, 2), and its area. If it always says yes, it ends at the
+        larger of 2^21 new vertices and 64 a point, or at `max_vertices`.
     max_vertices : int, optional
         So many new points at most.
     keep : str
@@ -179,26 +159,72 @@ def mesh(
     (14.0, 0, True)
     >>> made.triangles.shape[1], made.points[:7].tolist() == points
     (3, True)
+
+    A mesh from elsewhere, finer in one material.
+
+    >>> corners = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]]
+    >>> given = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]]
+    >>> finer = delone.mesh(corners, triangles=given, attributes=[7, 7, 8, 8],
+    ...     refine_if=lambda corners, area: area > 0.05 and corners[:, 0].mean() > 1)
+    >>> [round(float(finer.areas[finer.attributes == k].sum()), 12) for k in (7, 8)]
+    [1.0, 1.0]
     """
     given, ends, _ = points_and_segments(points, segments)
+    wanted = wanted_of(
+        min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, refine_if, len(given)
+    )
+    split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
     seeded = holes is not None or regions is not None
-    plain = "seeds" if seeded else "even-odd" if len(ends) else "all"
-    filled = plain if fill is None else as_choice(fill, _FILLS, "fill")
     concave = as_flag(keep_concavities, "keep_concavities")
+    if triangles is not None:
+        if seeded or concave or fill is not None:
+            raise ValueError("holes, regions, fill and keep_concavities say nothing of triangles: the inside is what they cover")
+        corners = triangles_of(triangles, len(given))
+        known = None if attributes is None else _attributes(attributes, len(corners))
+        first = Mesh._of_triangles(given, ends, split, corners, known)
+        again: Wishes = {**_PLAIN, **wanted}
+        return Mesh._make(first, again, first._recipe[2])
+    if attributes is not None:
+        raise ValueError("attributes are those of triangles: give these, too")
+    plain = "seeds" if seeded else "even-odd" if len(ends) else "all"
+    filled = plain if fill is None else as_choice(fill, FILLS, "fill")
     if filled != "seeds" and (seeded or concave):
         raise ValueError(f"holes, regions and keep_concavities are for fill='seeds', not {filled!r}")
-    seeds, attributes = _regions(regions)
-    wishes: Wishes = {
-        "fill": filled,
-        "holes": _seeds(holes),
-        "regions": seeds,
-        "keep_concavities": concave,
-        **_wanted(min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, len(given)),
-        "max_areas": None,
-        "of": None,
-    }
-    split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
-    return Mesh._make((given, ends, split), wishes, attributes)
+    seeds, of_regions = regions_of(regions)
+    wishes: Wishes = {**_PLAIN, **wanted}
+    wishes["fill"], wishes["holes"], wishes["regions"] = filled, seeds_of(holes), seeds
+    wishes["keep_concavities"] = concave
+    return Mesh._make((given, ends, split), wishes, of_regions)
+
+
+#: Nothing wanted, nothing given.
+_PLAIN: Wishes = {
+    "fill": "even-odd",
+    "holes": np.empty((0, 2)),
+    "regions": np.empty((0, 3)),
+    "keep_concavities": False,
+    "min_angle": 0.0,
+    "max_area": None,
+    "max_edge": None,
+    "edge": None,
+    "growth": 1.2,
+    "max_vertices": None,
+    "keep": "nothing",
+    "conforming": False,
+    "smooth": 0,
+    "size": None,
+    "refine_if": None,
+    "max_areas": None,
+    "of": None,
+    "triangles": None,
+}
+
+
+def _attributes(values: ArrayLike, count: int) -> NDArray[np.float64]:
+    array = as_numbers(values, "attributes")
+    if array.shape != (count,):
+        raise ValueError(f"attributes must have the shape ({count},), one number each, not {array.shape}")
+    return np.array(array, dtype=np.float64)
 
 
 class Mesh:
@@ -218,6 +244,32 @@ class Mesh:
         made._restore((origin, wishes, attributes))
         return made
 
+    @classmethod
+    def _of_triangles(
+        cls,
+        points: NDArray[np.float64],
+        segments: NDArray[np.int64],
+        split: bool,
+        triangles: NDArray[np.int64],
+        attributes: NDArray[np.float64] | None,
+    ) -> Mesh:
+        """The mesh of triangles that are given, as it is."""
+        # Zero has no sign here.
+        _, firsts, same = np.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)
+        first = firsts[same.ravel()]
+        corners = np.ascontiguousarray(first[triangles])
+        sides = sides_of(corners, first[segments], np.empty((0, 0)) if attributes is None else attributes[:, None])
+        origin = (points, sides.segments, split, np.maximum(sides.origins, -1), attributes)
+        try:
+            return cls._make(origin, {**_PLAIN, "triangles": corners}, np.empty(0))
+        except CrossingError as error:
+            one, other = sides.origins[[error.first, error.second]].tolist()
+            x, y = error.near
+            if one >= 0 and other >= 0:
+                words = f"segments {one} and {other} cross near ({x:g}, {y:g})"
+                raise CrossingError(words, one, other, error.near, error.count) from None
+            raise ValueError(f"triangles cross each other or a segment near ({x:g}, {y:g})") from None
+
     def __getstate__(self) -> tuple[Any, ...]:
         """What was given."""
         return self._recipe
@@ -233,7 +285,7 @@ class Mesh:
         if isinstance(origin, Mesh):
             self._core = origin._core.again(wishes)
         else:
-            points, segments, split = origin
+            points, segments, split = origin[:3]
             self._core = _delone.Mesh(points, segments, split, wishes)
 
     def __copy__(self) -> Mesh:
@@ -280,8 +332,27 @@ class Mesh:
 
     @property
     def attributes(self) -> NDArray[np.float64]:
-        """The attribute of the region of each triangle, (t,); NaN for none."""
-        return self._once("attributes", lambda: np.append(self._recipe[2], np.nan)[self.regions])
+        """The attribute of the region of each triangle, or of the given triangle that it is in, (t,); NaN for none."""
+
+        def make() -> NDArray[np.float64]:
+            known = self._known_attributes()
+            if known is None:
+                return np.asarray(np.append(self._recipe[2], np.nan)[self.regions])
+            return known
+
+        return self._once("attributes", make)
+
+    def _known_attributes(self) -> NDArray[np.float64] | None:
+        """By the attributes of triangles that were given, if there were any."""
+        origin = self._recipe[0]
+        if isinstance(origin, Mesh):
+            known = origin._recipe[0][4] if origin._is_given() else origin._known_attributes()
+            return None if known is None else np.append(known, np.nan)[self.parents]
+        return None
+
+    def _is_given(self) -> bool:
+        """Whether these are triangles that were given, as they are."""
+        return not isinstance(self._recipe[0], Mesh) and len(self._recipe[0]) > 3
 
     @property
     def segments(self) -> NDArray[np.int64]:
@@ -304,7 +375,15 @@ class Mesh:
         {0.0}
         >>> sorted(set(made.segment_origin.tolist()))
         [0, 1, 2, 3]"""
-        return self._once("segments", self._core.segments)[1]
+
+        def make() -> NDArray[np.int64]:
+            origins: NDArray[np.int64] = self._once("segments", self._core.segments)[1]
+            root = self
+            while isinstance(root._recipe[0], Mesh):
+                root = root._recipe[0]
+            return np.append(root._recipe[0][3], -1)[origins] if root._is_given() else origins
+
+        return self._once("segment_origin", make)
 
     @property
     def areas(self) -> NDArray[np.float64]:
@@ -352,8 +431,8 @@ class Mesh:
 
     @property
     def parents(self) -> NDArray[np.int64]:
-        """Of a mesh that `refine` made: for each triangle the row of the old triangle that holds its centroid, (t,); -1 for none,
-        and in a mesh that is not refined. So data of old triangles go to new ones. Old points keep their indices.
+        """Of a mesh that `refine` made, or `mesh` from `triangles`: for each triangle the row of the old triangle that holds its
+        centroid, (t,); -1 for none, and in other meshes. So data of old triangles go to new ones. Old points keep their indices.
 
         Examples
         --------
@@ -367,7 +446,10 @@ class Mesh:
             origin = self._recipe[0]
             if not isinstance(origin, Mesh):
                 return np.full(len(self.triangles), -1)
-            return origin._core.rows_at(np.ascontiguousarray(self.points[self.triangles].mean(axis=1)))
+            rows = origin._core.rows_at(np.ascontiguousarray(self.points[self.triangles].mean(axis=1)))
+            if not origin._is_given():
+                return rows
+            return np.append(rows_of(origin.triangles, origin._recipe[1]["triangles"]), -1)[rows]
 
         return self._once("parents", make)
 
@@ -382,13 +464,15 @@ class Mesh:
         edge: float | None = None,
         growth: float = 1.2,
         size: Size | None = None,
+        refine_if: Test | None = None,
         max_vertices: int | None = None,
         keep: str = "nothing",
         conforming: bool = False,
         smooth: int = 0,
     ) -> Mesh:
         """A finer mesh of the same triangles, which has all points of this one under the indices that they have. What is good
-        enough stays as it is. `parents` tells which old triangle each new one is in.
+        enough stays as it is, and so do `triangles` that were given, until a new point comes near. `parents` tells which old
+        triangle each new one is in.
 
         Parameters
         ----------
@@ -397,7 +481,7 @@ class Mesh:
             their area.
         max_areas : array_like of floats, shape (t,), optional
             The largest areas for what is in each triangle, by the centroids of new triangles. Infinite is no bound.
-        min_angle, max_area, max_edge, edge, growth, size, max_vertices, keep, conforming, smooth
+        min_angle, max_area, max_edge, edge, growth, size, refine_if, max_vertices, keep, conforming, smooth
             As for `mesh`; a size in an array is one for each of `points`. Largest areas of regions hold again.
 
         Raises
@@ -417,22 +501,26 @@ class Mesh:
         >>> finer.parents.shape == finer.areas.shape
         True
         """
-        areas = None if max_areas is None else _numbers(max_areas, "max_areas", len(self.triangles))
+        areas = None if max_areas is None else numbers_of(max_areas, "max_areas", len(self.triangles))
         if marked is not None:
-            halves = np.where(_flags(marked, "marked", len(self.triangles)), self.areas / 2, np.inf)
+            halves = np.where(flags_of(marked, "marked", len(self.triangles)), self.areas / 2, np.inf)
             areas = halves if areas is None else np.minimum(areas, halves)
         old: Wishes = self._recipe[1]
-        wishes: Wishes = {
-            "fill": old["fill"],
-            "holes": old["holes"],
-            "regions": old["regions"],
-            "keep_concavities": old["keep_concavities"],
-            **_wanted(
-                min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, len(self.points)
-            ),
-            "max_areas": areas,
-            "of": None,
-        }
+        wanted: Wanted = wanted_of(
+            min_angle,
+            max_area,
+            max_edge,
+            edge,
+            growth,
+            max_vertices,
+            keep,
+            conforming,
+            smooth,
+            size,
+            refine_if,
+            len(self.points),
+        )
+        wishes: Wishes = {**old, **wanted, "max_areas": areas, "of": None, "triangles": None}
         return Mesh._make(self, wishes, self._recipe[2])
 
     def check(self) -> None:
@@ -444,114 +532,3 @@ class Mesh:
         """A line that says what there is."""
         counts = f"{len(self.points)} points, {len(self.triangles)} triangles, {len(self.segments)} segments"
         return f"<delone.Mesh: {counts}>"
-
-
-def _flags(marked: ArrayLike, name: str, count: int) -> NDArray[np.bool_]:
-    """A flag for each of so many, of flags or indices."""
-    array = np.asarray(marked)
-    if array.dtype == bool:
-        if array.shape != (count,):
-            raise ValueError(f"{name} must have a flag for each of {count} triangles; its shape is {array.shape}")
-        return array
-    if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
-        raise TypeError(f"{name} must be flags or integers in a row, not {array.dtype} of the shape {array.shape}")
-    rows = array.astype(np.int64)
-    if rows.size and not -1 < rows.min() <= rows.max() < count:
-        k = int(np.argmax((rows < 0) | (rows >= count)))
-        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} triangles")
-    flags = np.zeros(count, bool)
-    flags[rows] = True
-    return flags
-
-
-def _wanted(
-    min_angle: float,
-    max_area: float | None,
-    max_edge: float | None,
-    edge: float | None,
-    growth: float,
-    max_vertices: int | None,
-    keep: str,
-    conforming: bool,
-    smooth: int,
-    size: Any,
-    count: int,
-) -> Wanted:
-    """What is wanted of a mesh, checked."""
-    most = None if max_vertices is None else as_index(max_vertices, "max_vertices")
-    if most is not None and not 0 <= most < 2**62:
-        raise ValueError(f"max_vertices must be from 0 to 2**62, not {most}")
-    rounds = as_index(smooth, "smooth")
-    if not 0 <= rounds < 2**31:
-        raise ValueError(f"smooth must be from 0 to 2**31, not {rounds}")
-    if edge is None and growth != 1.2:
-        raise ValueError("growth is that of edges of a wanted length: give edge, too")
-    lengths = [] if max_edge is None else [_bound(max_edge, "max_edge")]
-    field = size
-    if size is not None and not callable(size):
-        if np.ndim(size) == 0:
-            if edge is None:
-                lengths.append(_bound(size, "size"))
-            else:
-                edge = min(_bound(edge, "edge"), _bound(size, "size"))
-            field = None
-        else:
-            field = _numbers(size, "size", count, finite=True)
-    return {
-        "min_angle": _number(min_angle, "min_angle"),
-        "max_area": None if max_area is None else _bound(max_area, "max_area"),
-        "max_edge": min(lengths, default=None),
-        "edge": None if edge is None else _bound(edge, "edge"),
-        "growth": _number(growth, "growth"),
-        "max_vertices": most,
-        "keep": as_choice(keep, _KEPT, "keep"),
-        "conforming": as_flag(conforming, "conforming"),
-        "smooth": rounds,
-        "size": field,
-    }
-
-
-def _number(value: Any, what: str) -> float:
-    array = as_numbers(value, what)
-    if array.ndim or array.dtype.kind == "b":
-        raise TypeError(f"{what} must be a number, not {value!r}")
-    return float(array)
-
-
-def _bound(value: Any, what: str) -> float:
-    return float(_positive(np.array([_number(value, what)]), what)[0])
-
-
-def _numbers(values: Any, what: str, count: int, finite: bool = False) -> NDArray[np.float64]:
-    """A positive number for each of so many."""
-    array = as_numbers(values, what)
-    if array.shape != (count,):
-        raise ValueError(f"{what} must have the shape ({count},), one number each, not {array.shape}")
-    return _positive(np.array(array, dtype=np.float64), what, finite)
-
-
-def _positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
-    wrong = ~(numbers > 0) | (np.isinf(numbers) if finite else False)
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        place = f"{what}[{row}]" if finite or len(numbers) > 1 else what
-        raise ValueError(f"{place} is {numbers[row]}; it must be positive{' and finite' if finite else ''}")
-    return numbers
-
-
-def _seeds(holes: ArrayLike | None) -> NDArray[np.float64]:
-    array = np.empty((0, 2)) if holes is None else as_numbers(holes, "holes")
-    return np.array(as_points(array.reshape(0, 2) if array.shape == (0,) else array, "holes", 2))
-
-
-def _regions(regions: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Seeds with largest areas, and attributes."""
-    array = np.empty((0, 2)) if regions is None else as_numbers(regions, "regions")
-    if array.shape == (0,):
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or not 2 <= array.shape[1] <= 4:
-        raise ValueError(f"regions must have the shape (k, 2), (k, 3) or (k, 4), not {array.shape}")
-    seeds, count = as_points(array[:, :2], "regions", 2), len(array)
-    attributes = array[:, 2].astype(np.float64) if array.shape[1] > 2 else np.arange(count, dtype=np.float64)
-    areas = array[:, 3].astype(np.float64) if array.shape[1] > 3 else np.full(count, np.inf)
-    return np.column_stack([seeds, np.where(areas > 0, areas, np.inf)]), attributes

@@ -16,6 +16,8 @@ class Switches:
 
     poly: bool = False
     refine: bool = False
+    #: Whether a function is asked.
+    asks: bool = False
     min_angle: float = 0.0
     max_area: float | None = None
     #: Areas of regions or, where a mesh is refined, of its triangles.
@@ -40,6 +42,7 @@ class Switches:
 _FLAGS = {
     "p": "poly",
     "r": "refine",
+    "u": "asks",
     "A": "attributes",
     "c": "convex",
     "D": "conforming",
@@ -82,8 +85,6 @@ def parse(opts: str) -> Switches:
             if number not in ("1", "2"):
                 raise ValueError(f"switch o: the order must be 1 or 2, not {number!r}")
             found.second_order = number == "2"
-        elif letter == "u":
-            raise ValueError("switch u: there is no test of users here; delone.mesh has size=")
         elif letter not in _HARMLESS + "- ":
             raise ValueError(f"there is no switch {letter!r}, in {opts!r}")
     return found

@@ -17,11 +17,12 @@ from ._delaunay import Delaunay
 from ._like_triangle import Given, Result, refined
 from ._points import as_points
 from ._switches import parse
+from ._wishes import Test
 
 __all__ = ["convex_hull", "delaunay", "triangulate", "voronoi"]
 
 
-def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArray[Any]]:
+def triangulate(tri: Mapping[str, ArrayLike], opts: str = "", *, refine: Test | None = None) -> dict[str, NDArray[Any]]:
     """Triangulates or meshes what a dictionary describes, as `triangle.triangulate` does.
 
     Parameters
@@ -37,7 +38,10 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
         hull. D: conforming Delaunay. Y: no new vertices on the border, YY: on no segment. S: with so many new vertices at
         most. O: without holes. j: without vertices that no triangle has. o2: with vertices in the middles of edges. e, n:
         with edges, neighbors. B, N, E, P: without markers, vertices, triangles, segments.
-        z, v, g, X, I, Q, V, h, i, F, l, s and C change nothing here.
+        u: triangles are refined as long as `refine` says so. z, v, g, X, I, Q, V, h, i, F, l, s and C change nothing here.
+    refine : function, optional
+        For the switch u: whether a triangle is to be refined, of its corners, an array (3, 2), and its area. Where it always says
+        yes it ends, see `delone.mesh`.
 
     Returns
     -------
@@ -60,8 +64,10 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "") -> dict[str, NDArr
     (['triangles', 'vertex_markers', 'vertices'], dtype('int32'))
     """
     switches = parse(opts)
+    if switches.asks != (refine is not None):
+        raise ValueError("the switch u and the function refine go together")
     given = Given.of(tri, switches)
-    result = Result(given, switches, *refined(given, switches))
+    result = Result(given, switches, *refined(given, switches, refine))
     left = sum(reason in ("budget", "cascade") for reason in result.mesh.report.reasons)
     if left and switches.min_angle > 34 and switches.max_vertices is None:
         # Triangle would not end.

@@ -36,7 +36,7 @@ use crate::points::survey as bounds;
 use frontal::Frontal;
 use mesher::{Done, Known, Mesher};
 use queue::{Queue, STEEP_ANGLE};
-use rules::{Field, Rules};
+use rules::{Field, Rules, Test};
 
 /// Which constraints may not be split.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -73,6 +73,7 @@ pub struct Refinement<'a> {
     max_edge: Option<f64>,
     area_at: Option<Field<'a>>,
     size_at: Option<Field<'a>>,
+    refine_if: Option<Test<'a>>,
     edge: Option<f64>,
     edge_at: Option<Field<'a>>,
     growth: f64,
@@ -149,6 +150,7 @@ impl<'a> Refinement<'a> {
             max_edge: None,
             area_at: None,
             size_at: None,
+            refine_if: None,
             edge: None,
             edge_at: None,
             growth: GROWTH,
@@ -232,6 +234,13 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn size(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
         Self { size_at: Some(length), ..self }
+    }
+
+    /// Triangles are refined as long as this says so, of the corners, counter-clockwise from the shortest side on, and of the area. If
+    /// [`Self::max_vertices`] says nothing, it ends at the larger of 2^21 new vertices and 64 a point; [`Reason::Budget`] tells.
+    #[must_use]
+    pub fn refine_if(self, is_to_be_refined: Test<'a>) -> Self {
+        Self { refine_if: Some(is_to_be_refined), ..self }
     }
 
     /// Edges are to have this length: triangles become nearly equilateral, and grow smoothly from where the input asks for short edges

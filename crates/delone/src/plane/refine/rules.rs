@@ -60,10 +60,14 @@ pub(super) struct Rules<'a> {
     has_fields: bool,
     area_at: Option<Field<'a>>,
     size_at: Option<Field<'a>>,
+    refine_if: Option<Test<'a>>,
     flaw: Cell<Option<(f64, [f64; 2])>>,
     stop: Option<&'a dyn Fn() -> bool>,
     watch: Option<&'a dyn Fn(usize)>,
 }
+
+/// Whether a triangle is to be refined, by its corners and its area.
+pub(super) type Test<'a> = &'a dyn Fn([[f64; 2]; 3], f64) -> bool;
 
 /// A number for each place.
 pub(super) type Field<'a> = &'a dyn Fn([f64; 2]) -> f64;
@@ -84,17 +88,21 @@ impl<'a> Rules<'a> {
         let areas = before.parts[..before.inside].iter().map(own);
         let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();
         let areas: Vec<f64> = std::iter::once(f64::INFINITY).chain(areas).collect();
-        let has_fields = wanted.area_at.is_some() || wanted.size_at.is_some();
+        let has_fields =
+            wanted.area_at.is_some() || wanted.size_at.is_some() || wanted.refine_if.is_some();
+        let unasked = MAX_VERTICES_FOR_ANGLES.max(EACH * before.given);
+        // A function may say yes for ever.
+        let room = if wanted.refine_if.is_some() { unasked.min(before.room) } else { before.room };
         Self {
             squared_cosine: if angle > 0.0 { angle.cos() * angle.cos() } else { 2.0 },
             lens: lens * lens,
             reach: SHORT * 0.5 / (0.5 * angle.max(NARROWEST.to_radians())).tan(),
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
-            most: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
+            most: wanted.max_vertices.map_or(room, |most| most.min(before.room)),
             for_angles: wanted
                 .max_vertices
-                .map_or_else(|| MAX_VERTICES_FOR_ANGLES.max(EACH * before.given), |_| before.room),
+                .map_or(unasked, |_| before.room),
             keep: wanted.keep,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
@@ -104,6 +112,7 @@ impl<'a> Rules<'a> {
             length_at: wanted.edge_at,
             area_at: wanted.area_at,
             size_at: wanted.size_at,
+            refine_if: wanted.refine_if,
             flaw: Cell::new(None),
             stop: wanted.stop,
             watch: wanted.watch,
@@ -135,7 +144,9 @@ impl<'a> Rules<'a> {
         let at = shape.centroid();
         let asked = |field| self.asked(field, at);
         let size = asked(self.size_at);
-        shape.area() > asked(self.area_at) || shape.longest() > size * size
+        shape.area() > asked(self.area_at)
+            || shape.longest() > size * size
+            || self.refine_if.is_some_and(|is_to_be_refined| is_to_be_refined(shape.points, shape.area()))
     }
 
     /// How long edges may be at a place of a domain, about, in coordinate units. What is refused for being too small is far below.

@@ -1,0 +1,137 @@
+"""Meshes that there are stay as they are where nothing has to change: triangles, materials, data."""
+
+import pickle
+import warnings
+
+import delone
+import numpy as np
+import pytest
+from delone.triangle import triangulate
+
+
+def grid(side=8, rising=True):
+    """Unit squares cut along one diagonal."""
+    x, y = np.meshgrid(np.arange(side + 1), np.arange(side + 1))
+    points = np.column_stack([x.ravel(), y.ravel()]).astype(float)
+    a = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
+    b, c, d = a + 1, a + side + 2, a + side + 1
+    halves = [[a, b, c], [a, c, d]] if rising else [[a, b, d], [b, c, d]]
+    return points, np.concatenate([np.column_stack(half) for half in halves])
+
+
+def rows(triangles):
+    """Triangles without order."""
+    return set(map(tuple, np.sort(triangles, axis=1).tolist()))
+
+
+@pytest.mark.parametrize("rising", [True, False])
+def test_a_good_grid_stays(rising):
+    points, triangles = grid(rising=rising)
+    for wanted in ({"min_angle": 0}, {"min_angle": 30}, {"max_area": 0.5}):
+        made = delone.mesh(points, triangles=triangles, **wanted)
+        made.check()
+        assert rows(made.triangles) == rows(triangles)
+        assert made.parents.dtype == np.int64
+        assert (np.sort(triangles[made.parents], axis=1) == np.sort(made.triangles, axis=1)).all()
+        assert len(made.segments) == 32 and (made.segment_origin == -1).all()
+    for switches in ("r", "rq30"):
+        assert rows(triangulate({"vertices": points, "triangles": triangles}, switches)["triangles"]) == rows(triangles)
+
+
+def test_only_what_is_marked_changes():
+    points, triangles = grid()
+    first = delone.mesh(points, triangles=triangles)
+    corner = (first.points[first.triangles].mean(axis=1) < 2).all(axis=1)
+    finer = first.refine(marked=corner)
+    finer.check()
+    far = (finer.points[finer.triangles] > 4).any(axis=(1, 2))
+    assert rows(finer.triangles[far]) <= rows(triangles)
+    assert len(finer.triangles) > len(triangles) + corner.sum() / 2
+    assert finer.area == pytest.approx(64)
+    # Data of old triangles go to new ones, twice.
+    finest = finer.refine(marked=finer.areas > 0.4)
+    centers = first.points[first.triangles].mean(axis=1)
+    through = centers[finer.parents[finest.parents]]
+    assert np.abs(through - finest.points[finest.triangles].mean(axis=1)).max() < 1.5
+
+
+def test_materials_are_kept_with_their_areas():
+    points, triangles = grid(4, rising=False)
+    materials = np.where(points[triangles][:, :, 0].mean(axis=1) < 1.5, 3.0, 7.5)
+    made = delone.mesh(points, triangles=triangles, attributes=materials, min_angle=32, max_area=0.1)
+    made.check()
+    for material in (3.0, 7.5):
+        given = (materials == material).sum() / 2
+        assert made.areas[made.attributes == material].sum() == pytest.approx(given)
+    again = made.refine(max_area=0.02)
+    assert again.areas[again.attributes == 3.0].sum() == pytest.approx((materials == 3.0).sum() / 2)
+    copy = pickle.loads(pickle.dumps(again))
+    assert (copy.triangles == again.triangles).all() and (copy.attributes == again.attributes).all()
+
+
+def test_segments_and_repeated_points():
+    points, triangles = grid(2)
+    # Every triangle has corners of its own, as in files of surfaces.
+    apart, corners = points[triangles.ravel()], np.arange(triangles.size).reshape(-1, 3)
+    made = delone.mesh(apart, triangles=corners, min_angle=0)
+    assert len(made.triangles) == 8 and len(made.segments) == 8
+    assert (np.sort(made.parents) == np.arange(8)).all()
+    wall = delone.mesh(points, [[1, 4], [0, 1]], triangles=triangles, min_angle=0)
+    origins = wall.segment_origin
+    assert sorted(map(sorted, wall.segments[origins >= 0].tolist())) == [[0, 1], [1, 4]]
+    assert sorted(origins.tolist()) == [-1] * 7 + [0, 1]
+
+
+def test_functions_of_triangles():
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    made = delone.mesh(square, refine_if=lambda corners, area: area > 0.001 + 0.02 * corners[:, 0].min())
+    assert (made.areas <= 0.001 + 0.02 * made.points[made.triangles][:, :, 0].min(axis=1)).all()
+    capped = delone.mesh(square, refine_if=lambda corners, area: True, max_vertices=100)
+    assert len(capped.points) == 104 and set(capped.report.reasons) == {"budget"}
+    with pytest.raises(ZeroDivisionError):
+        delone.mesh(square, refine_if=lambda corners, area: 1 / 0)
+    with pytest.raises(TypeError, match="refine_if must be a function"):
+        delone.mesh(square, refine_if=3)
+    data = {"vertices": square, "segments": [[0, 1], [1, 2], [2, 3], [3, 0]]}
+    fine = triangulate(data, "pqu", refine=lambda corners, area: area > 0.01)
+    assert len(fine["triangles"]) > 100
+    for switches, function in (("pq", lambda corners, area: True), ("pqu", None)):
+        with pytest.raises(ValueError, match="go together"):
+            triangulate(data, switches, refine=function)
+
+
+def test_triangles_that_cannot_be_kept():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    for triangles, error, words in (
+        ([[0, 1, 2], [0, 1, 3]], ValueError, "triangles cross each other .* near"),
+        ([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]], ValueError, "triangle . near .* crosses"),
+        ([[0, 1, 1]], ValueError, "no area"),
+        ([[0, 1, 4]], IndexError, "triangle 0 has the corners"),
+        ([[0.5, 1, 2]], TypeError, "three integers"),
+    ):
+        with pytest.raises(error, match=words):
+            delone.mesh(square, triangles=triangles)
+    with pytest.raises(delone.CrossingError, match="segments 1 and 2 cross"):
+        delone.mesh(square, [[0, 1], [0, 2], [1, 3]], triangles=[[0, 1, 2]])
+    with pytest.raises(ValueError, match="say nothing of triangles"):
+        delone.mesh(square, triangles=[[0, 1, 2]], fill="all")
+    with pytest.raises(ValueError, match="give these, too"):
+        delone.mesh(square, attributes=[1])
+    with pytest.raises(ValueError, match="one number each"):
+        delone.mesh(square, triangles=[[0, 1, 2]], attributes=[1, 2])
+    # In Triangle's place there is a mesh, and a warning.
+    with pytest.warns(UserWarning, match="made anew"):
+        made = triangulate({"vertices": square, "triangles": [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]]}, "r")
+    assert len(made["triangles"])
+    # Triangles without area hold nothing.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        given = [[0, 1, 2], [0, 2, 3], [0, 2, 2]]
+        assert len(triangulate({"vertices": square, "triangles": given}, "r")["triangles"]) == 2
+
+
+def test_lengths_of_edges_make_all_anew():
+    points, triangles = grid(2)
+    made = delone.mesh(points / 2, triangles=triangles, edge=0.1, min_angle=30)
+    made.check()
+    assert made.shapes.quality_mean > 0.97 and made.area == pytest.approx(1)
