@@ -104,6 +104,9 @@ impl Failure {
             delone::Error::NoSuchPoint { .. } => "segments name points by index, from 0",
             delone::Error::Coordinate { .. } => "seeds of holes and regions are finite points",
             delone::Error::Seed { .. } => "move the seed into the hole or region, or choose another --fill",
+            delone::Error::KeptTriangle { .. } => {
+                "leave out segments that cross triangles, or make the triangles anew with --rebuild"
+            }
             _ => return Self::points(path, error),
         };
         Self::new(format!("{}: {error}", path.display()), help)

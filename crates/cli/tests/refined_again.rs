@@ -62,3 +62,46 @@ fn a_mesh_is_refined_again() {
     place.fail("mesh a.node --refine twice.ele -o c.vtu", 1, "no mesh");
     place.fail("mesh a.node --areas a.area -o c.vtu", 2, "--refine");
 }
+
+/// A grid whose diagonals are not those of the canonical triangulation.
+fn grid(place: &Place) {
+    let side = 9;
+    let at = |i: usize| format!("{} {} {}\n", i + 1, i % side, i / side);
+    let points: String = (0..side * side).map(at).collect();
+    place.file("g.node", format!("{} 2 0 0\n{points}", side * side));
+    let squares = (0..(side - 1) * (side - 1)).map(|k| k / (side - 1) * side + k % (side - 1) + 1);
+    let halves = squares.flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side + 1, a + side]]);
+    let rows: Vec<String> =
+        halves.enumerate().map(|(i, [a, b, c])| format!("{} {a} {b} {c} {}\n", i + 1, 3)).collect();
+    place.file("g.ele", format!("{} 3 1\n{}", rows.len(), rows.concat()));
+}
+
+#[test]
+fn triangles_stay_where_nothing_has_to_change() {
+    let place = Place::new();
+    grid(&place);
+    let sorted = |name: &str| {
+        let mut triangles = mesh(&place, name).triangles;
+        triangles.iter_mut().for_each(|corners| corners.sort_unstable());
+        triangles.sort_unstable();
+        triangles
+    };
+    let given = sorted("g");
+    place.succeed(
+        "-q mesh g.node --refine g.ele --min-angle 30 --check -o a.node -o a.ele -o a.poly -o a.edge",
+    );
+    assert_eq!(sorted("a"), given);
+    // Edges that only keep triangles are no segments.
+    assert!(place.read("a.poly").contains("\n32 "), "{}", place.read("a.poly"));
+    place.succeed("-q mesh g.node --refine g.ele --rebuild -o b.node -o b.ele");
+    assert_ne!(sorted("b"), given);
+    place.succeed("-q mesh g.node --triangle rq -o c.node -o c.ele");
+    assert_eq!(sorted("c"), given);
+    place.file("g.poly", "0 2 0 0\n1 0\n1 1 12\n0\n");
+    place.fail(
+        "mesh g.node --segments g.poly --refine g.ele -o d.vtu",
+        1,
+        "crosses a segment or another triangle",
+    );
+    place.fail("mesh g.node --rebuild -o d.vtu", 2, "--refine");
+}

@@ -92,6 +92,9 @@ pub(crate) struct MeshArgs {
         )
     )]
     pub(crate) refine: Option<PathBuf>,
+    /// Make the triangles of --refine anew, Delaunay within their borders. Otherwise they stay until a new vertex comes near, but with --edge.
+    #[arg(long, requires = "refine", help_heading = "Quality")]
+    pub(crate) rebuild: bool,
     /// File of the largest area within each triangle of --refine (area).
     #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]
     pub(crate) areas: Option<PathBuf>,

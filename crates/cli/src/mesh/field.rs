@@ -80,6 +80,8 @@ pub(super) struct Elements {
     triangulation: Constrained2,
     /// For each triangle its row in the file.
     rows: Vec<Option<u32>>,
+    /// The corners of each row; of equal points the first.
+    corners: Vec<[VertexId; 3]>,
 }
 
 impl Elements {
@@ -100,11 +102,9 @@ impl Elements {
             corners.sort_unstable();
             corners
         };
-        let mut known: Vec<([usize; 3], u32)> = triangles
-            .iter()
-            .zip(0..)
-            .map(|(corners, row)| (sorted(corners.map(|i| vertex[i])), row))
-            .collect();
+        let corners: Vec<[usize; 3]> = triangles.iter().map(|corners| corners.map(|i| vertex[i])).collect();
+        let mut known: Vec<([usize; 3], u32)> =
+            corners.iter().zip(0..).map(|(&corners, row)| (sorted(corners), row)).collect();
         known.sort_unstable();
         let mut rows = vec![None; c.mesh().slot_count()];
         let mut found = 0;
@@ -123,7 +123,13 @@ impl Elements {
                 "triangles of a mesh share corners and sides, and no more",
             ));
         }
-        Ok(Self { triangulation: c, rows })
+        let corners = corners.into_iter().map(|corners| corners.map(VertexId::new)).collect();
+        Ok(Self { triangulation: c, rows, corners })
+    }
+
+    /// The corners of all of them.
+    pub(super) fn corners(&self) -> &[[VertexId; 3]] {
+        &self.corners
     }
 
     /// The rows of the triangles that a place is in, or between.

@@ -12,7 +12,10 @@ mod tell;
 
 use std::path::Path;
 
-use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Shapes2, Triangulation, VertexId};
+use delone::{
+    Constrained2, EdgeId, Error, Fill, Location2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
+    VertexId,
+};
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
     write_voronoi_node,
@@ -150,6 +153,9 @@ impl Made {
         if again.as_ref().is_some_and(Again::has_areas) {
             wanted = wanted.max_area_at(&area);
         }
+        if let Some(again) = &again {
+            wanted = wanted.triangles(again.kept());
+        }
         let width = graph.attributes.width;
         let has_values = heights.is_some() || width > 0;
         let before = has_values.then(|| triangulation.clone());
@@ -193,7 +199,10 @@ impl Made {
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
         let lines = features::of_lines(c, graph);
         let (mut edge_markers, mut edge_rows) = (Vec::new(), Vec::new());
-        for (i, [v, w]) in c.constraints().enumerate() {
+        for (i, ([v, w], e)) in c.constraints().zip(c.constraint_edges()).enumerate() {
+            if self.only_keeps(e) {
+                continue;
+            }
             if let (Some(v), Some(w)) = (kept.name(v), kept.name(w)) {
                 edges.push([v, w]);
                 edge_markers.extend(markers.as_ref().map(|markers| markers.edges[i]));
@@ -244,6 +253,13 @@ impl Made {
             })?;
         }
         Ok(())
+    }
+
+    /// Whether an edge is a constraint only to keep triangles that were given.
+    fn only_keeps(&self, e: EdgeId) -> bool {
+        let kept = &self.refined.kept;
+        let is_kept = |segment: SegmentId| kept.binary_search(&segment).is_ok();
+        !kept.is_empty() && self.triangulation.covering(e).iter().all(|one| is_kept(one.segment))
     }
 
     /// The region of each triangle, if regions are written.

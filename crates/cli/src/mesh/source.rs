@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use delone::VertexId;
 use delone_io::{Attributes, Format, Graph};
 
 use super::field::Elements;
@@ -20,6 +21,8 @@ pub(super) struct Sources {
     refine: Option<PathBuf>,
     /// The largest areas of these.
     areas: Option<PathBuf>,
+    /// Whether these triangles are made anew.
+    is_rebuilt: bool,
     /// Whether segments, holes and regions of the input count.
     has_segments: bool,
 }
@@ -57,6 +60,7 @@ impl Sources {
             segments: args.graph.segments.clone(),
             refine: args.refine.clone(),
             areas: args.areas.clone(),
+            is_rebuilt: args.rebuild,
             has_segments: true,
         };
         let Some(switches) = &args.triangle else { return Ok(sources) };
@@ -192,7 +196,7 @@ impl Sources {
         }
         add_between(graph, &between);
         add_border(graph, &border);
-        Ok(Again { elements, attributes, areas })
+        Ok(Again { elements, attributes, areas, is_rebuilt: self.is_rebuilt })
     }
 }
 
@@ -244,9 +248,16 @@ pub(super) struct Again {
     elements: Elements,
     attributes: Attributes,
     areas: Option<Vec<Option<f64>>>,
+    /// Whether its triangles are made anew.
+    is_rebuilt: bool,
 }
 
 impl Again {
+    /// The triangles that stay until a vertex comes near.
+    pub(super) fn kept(&self) -> &[[VertexId; 3]] {
+        if self.is_rebuilt { &[] } else { self.elements.corners() }
+    }
+
     /// Whether there are bounds of areas.
     pub(super) fn has_areas(&self) -> bool {
         self.areas.is_some()

@@ -88,8 +88,7 @@ impl<'a> Rules<'a> {
         let areas = before.parts[..before.inside].iter().map(own);
         let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();
         let areas: Vec<f64> = std::iter::once(f64::INFINITY).chain(areas).collect();
-        let has_fields =
-            wanted.area_at.is_some() || wanted.size_at.is_some() || wanted.refine_if.is_some();
+        let has_fields = wanted.area_at.is_some() || wanted.size_at.is_some() || wanted.refine_if.is_some();
         let unasked = MAX_VERTICES_FOR_ANGLES.max(EACH * before.given);
         // A function may say yes for ever.
         let room = if wanted.refine_if.is_some() { unasked.min(before.room) } else { before.room };
@@ -100,9 +99,7 @@ impl<'a> Rules<'a> {
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             most: wanted.max_vertices.map_or(room, |most| most.min(before.room)),
-            for_angles: wanted
-                .max_vertices
-                .map_or(unasked, |_| before.room),
+            for_angles: wanted.max_vertices.map_or(unasked, |_| before.room),
             keep: wanted.keep,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
