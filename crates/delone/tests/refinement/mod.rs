@@ -2,6 +2,7 @@
 
 mod again;
 mod bounds;
+mod coarsen;
 mod ends;
 mod frontal;
 mod judge;

@@ -316,7 +316,7 @@ impl Constrained2 {
     }
 
     /// The parts, not told apart yet.
-    fn parts(&self) -> Domains2 {
+    pub(super) fn parts(&self) -> Domains2 {
         let mesh = self.mesh();
         let mut of = vec![NONE; mesh.slot_count()];
         let mut found: Vec<([VertexId; 3], Part2)> = Vec::new();

@@ -21,6 +21,7 @@
 
 mod band;
 mod build;
+mod carried;
 mod change;
 mod check;
 mod crossings;

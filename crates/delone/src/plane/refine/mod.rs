@@ -13,6 +13,7 @@
 //!
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
+mod coarsen;
 mod free;
 mod frontal;
 mod kept;
@@ -358,8 +359,8 @@ impl<'a> Refinement<'a> {
         Self { fill, ..self }
     }
 
-    /// Triangles that are there first, whether they are Delaunay or not, and stay until a new vertex comes into the circle of one: a mesh
-    /// from elsewhere is refined where it has to be, and is itself anywhere else. Edges that only keep triangles are in
+    /// Triangles that are there first, whether they are Delaunay or not, and stay until a new vertex is to come into the circle of one: a
+    /// mesh from elsewhere is refined where it has to be, and is itself anywhere else. Edges that only keep triangles are in
     /// [`Refined2::kept`]. Where lengths of edges are wanted ([`Self::edge`]), no triangles are kept.
     ///
     /// ```

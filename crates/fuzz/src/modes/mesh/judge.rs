@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use delone::{Constrained2, EdgeId, Error, Fill, Keep, Reason, Refined2, TriangleId, VertexId};
+use delone::{Constrained2, EdgeId, Error, Fill, Keep, Reason, Refined2, SegmentId, TriangleId, VertexId};
 use delone_oracle::certificate::certify;
 use delone_oracle::exact::{angle, compare_lengths, is_angle_at_least};
 use num_bigint::BigInt;
@@ -25,6 +25,8 @@ pub(super) struct Case<'a> {
     pub(super) fill: Fill<'a>,
     /// The lines of the vertices from before.
     pub(super) lines: &'a Lines,
+    /// The segments of before that only kept triangles, and may be gone.
+    pub(super) kept: &'a [SegmentId],
 }
 
 /// The part of a mesh that must not depend on the order of the input: triangles inside, and those left with reasons.
@@ -190,7 +192,7 @@ impl Case<'_> {
         if covered != constraints {
             return Err("constraints that are of no segment".to_owned());
         }
-        if before.len() > c.segments().count() {
+        if before.len() - self.kept.len() > c.segments().count() {
             return Err("segments are lost".to_owned());
         }
         Ok(along)
@@ -236,11 +238,21 @@ impl Case<'_> {
         Ok(())
     }
 
+    /// Whether an edge of before is a constraint only to keep triangles.
+    fn only_keeps(&self, ends: &[VertexId; 2]) -> bool {
+        !self.kept.is_empty()
+            && self
+                .before
+                .segments()
+                .all(|(s, of)| of.iter().any(|v| !ends.contains(v)) || self.kept.contains(&s))
+    }
+
     /// Judges that everything to be kept is there.
     fn judge_kept(&self, refined: &Refined2) -> Judgement {
         let is_split = |e: &[VertexId; 2]| !self.after.constraints().any(|edge| edge == *e);
         if self.wish.keep == Keep::Constraints
-            && (refined.report.on_constraints > 0 || edges(self.before).iter().any(is_split))
+            && (refined.report.on_constraints > 0
+                || edges(self.before).iter().filter(|e| !self.only_keeps(e)).any(is_split))
         {
             return Err("constraints are split".to_owned());
         }
@@ -254,6 +266,7 @@ impl Case<'_> {
                 [v.min(w), v.max(w)]
             };
             let border = c.constraint_edges().filter(|&e| !is_between(e)).map(ends);
+            let border = border.filter(|e| !self.only_keeps(e));
             if let Some(edge) = border.into_iter().find(is_split) {
                 return Err(format!("{edge:?} of the border is split"));
             }
@@ -310,7 +323,7 @@ impl Case<'_> {
         let is_certainly = |slack: f64| {
             has_angles(points, wish.min_angle, slack)
                 && self.is_small(points, wish.area_of(refined.domains.region(t)), slack)
-                && (!wish.conforming || !self.is_encroached(t))
+                && (!wish.conforming || !self.is_encroached(refined, t))
         };
         match left {
             None if !is_measurable(points) => Err("is not measured, and not left".to_owned()),
@@ -353,11 +366,12 @@ impl Case<'_> {
     }
 
     /// Whether a constraint sees the far corner of its triangle inside of its diametral circle.
-    fn is_encroached(&self, t: TriangleId) -> bool {
+    fn is_encroached(&self, refined: &Refined2, t: TriangleId) -> bool {
         let (c, mesh) = (self.after, self.after.mesh());
+        let only_keeps = |e| c.covering(e).iter().all(|one| refined.kept.contains(&one.segment));
         [0, 1, 2].map(|k| t.edge(k)).into_iter().any(|e| {
             let [o, a, b] = [mesh.apex(e), mesh.origin(e), mesh.destination(e)].map(|v| c.point(v));
-            c.is_constraint(e) && angle(o, a, b) < 0
+            c.is_constraint(e) && angle(o, a, b) < 0 && !only_keeps(e)
         })
     }
 

@@ -2,6 +2,7 @@
 //! is the same for other orders of the input, and is refined again and changed like any other triangulation.
 
 mod judge;
+mod kept;
 mod shapes;
 mod wish;
 
@@ -95,7 +96,7 @@ fn refine_again(c: &Constrained2, refined: &Refined2, wish: &Wish, lines: &Lines
     let mut d = c.clone();
     let fill = Fill::Parts(&refined.domains);
     let answer = wish.run(&mut d, fill);
-    Case { before: c, after: &d, wish, fill, lines }.judge(&answer).map(|_| ())
+    Case { before: c, after: &d, wish, fill, lines, kept: &refined.kept }.judge(&answer).map(|_| ())
 }
 
 /// Vertices come and go in what was refined, as in any other triangulation.
@@ -138,7 +139,8 @@ impl Attack for Mesh {
         let named = |what: String| format!("{wish:?}: {what}");
         let (before, mut c, answer) = refined(&points, &segments, &wish)?;
         let nothing = Lines::new();
-        let case = Case { before: &before, after: &c, wish: &wish, fill: wish.fill(), lines: &nothing };
+        let case =
+            Case { before: &before, after: &c, wish: &wish, fill: wish.fill(), lines: &nothing, kept: &[] };
         let lines = case.judge(&answer).map_err(named)?;
         let (points_too, segments_too) = shuffled((&points, &segments), wish.may_turn(), &mut random);
         let (other_before, d, other) = refined(&points_too, &segments_too, &wish)?;
@@ -147,6 +149,8 @@ impl Attack for Mesh {
         let again = Wish::random(&mut random, &points);
         if let Ok(refined) = &answer {
             good_stays(&c, refined, &wish).map_err(named)?;
+            kept::attack(&before, &wish, &again, &mut random)
+                .map_err(|what| named(format!("of other triangles, then by {again:?}: {what}")))?;
             let more = again.clone().inside_of(&wish);
             refine_again(&c, refined, &more, &lines)
                 .map_err(|what| named(format!("then what is inside by {more:?}: {what}")))?;
@@ -154,7 +158,8 @@ impl Attack for Mesh {
         // The mesh is an input like others.
         let first = c.clone();
         let answer = again.run(&mut c, again.fill());
-        let case = Case { before: &first, after: &c, wish: &again, fill: again.fill(), lines: &nothing };
+        let case =
+            Case { before: &first, after: &c, wish: &again, fill: again.fill(), lines: &nothing, kept: &[] };
         case.judge(&answer).map_err(|what| named(format!("then {again:?}: {what}")))?;
         change(&mut c, points.len(), &mut random)
             .map_err(|what| named(format!("then {again:?}: then {what}")))

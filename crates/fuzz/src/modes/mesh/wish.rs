@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use delone::{Constrained2, Error, Fill, Keep, Refined2, Refinement, RegionSeed2, Seeds2};
+use delone::{Constrained2, Error, Fill, Keep, Refined2, Refinement, RegionSeed2, Seeds2, VertexId};
 use delone_generators::Random;
 
 use crate::nasty::{self, once_in, pick};
@@ -45,6 +45,8 @@ pub(super) struct Wish {
     /// 0 all, 1 parity, 2 winding, 3 seeds.
     fill: usize,
     seeds: Seeds2,
+    /// Triangles that are given.
+    triangles: Vec<[VertexId; 3]>,
 }
 
 impl Wish {
@@ -95,7 +97,13 @@ impl Wish {
             stop: if once_in(random, 20) { Some(random.below(3)) } else { None },
             fill: pick(random, &[0, 0, 1, 1, 2, 3]),
             seeds,
+            triangles: Vec::new(),
         }
+    }
+
+    /// These criteria, with triangles that are given.
+    pub(super) fn keeping(self, triangles: Vec<[VertexId; 3]>) -> Self {
+        Self { triangles, ..self }
     }
 
     /// Whether directions of segments say nothing.
@@ -148,6 +156,7 @@ impl Wish {
             .growth(self.growth)
             .max_vertices(self.most)
             .stop_if(&stop)
+            .triangles(&self.triangles)
             .fill(fill);
         if let Some(most) = self.max_area {
             how = how.max_area(most);
