@@ -130,6 +130,28 @@ def test_triangles_that_cannot_be_kept():
         assert len(triangulate({"vertices": square, "triangles": given}, "r")["triangles"]) == 2
 
 
+def test_meshes_are_made_coarser():
+    made = delone.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], max_area=0.002)
+    right = made.points[made.triangles].mean(axis=1)[:, 0] > 1
+    coarse = made.coarsen(marked=right).coarsen(marked=[])
+    coarse.check()
+    assert len(coarse.triangles) < len(made.triangles) - right.sum() / 4
+    assert coarse.area == pytest.approx(2) and coarse.report.smallest_angle >= 20
+    assert rows(made.triangles[~right]) <= rows(coarse.triangles)
+    assert len(coarse.points) == len(made.points)
+    assert len(np.unique(coarse.triangles)) < len(np.unique(made.triangles))
+    copy = pickle.loads(pickle.dumps(coarse))
+    assert (copy.triangles == coarse.triangles).all()
+    finer = coarse.refine(max_area=0.001)
+    finer.check()
+    assert finer.areas.max() <= 0.001
+    for marked, error in (([True], ValueError), ([-1], IndexError), ([0.5], TypeError)):
+        with pytest.raises(error):
+            made.coarsen(marked=marked)
+    with pytest.raises(ValueError, match="60"):
+        made.coarsen(marked=[0], min_angle=60)
+
+
 def test_lengths_of_edges_make_all_anew():
     points, triangles = grid(2)
     made = delone.mesh(points / 2, triangles=triangles, edge=0.1, min_angle=30)

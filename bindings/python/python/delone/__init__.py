@@ -41,7 +41,8 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
-from ._mesh import Mesh, MeshReport, MeshShapes, mesh
+from ._mesh import Mesh, MeshReport, MeshShapes
+from ._meshing import mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
 from ._periodic import Periodic

@@ -193,6 +193,7 @@ def _wishes(switches: Switches, fill: str, refine_if: Test | None) -> Wishes:
         "max_areas": None,
         "of": None,
         "triangles": None,
+        "coarsen": None,
         "refine_if": refine_if,
     }
 

@@ -11,10 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._errors import CrossingError, restores
-from ._points import as_choice, as_flag, as_numbers
-from ._polygons import points_and_segments
 from ._sides import rows_of, sides_of
-from ._wishes import FILLS, Size, Test, Wanted, Wishes, flags_of, numbers_of, regions_of, seeds_of, triangles_of, wanted_of
+from ._wishes import PLAIN, Size, Test, Wanted, Wishes, flags_of, numbers_of, wanted_of
 
 T = TypeVar("T")
 
@@ -54,179 +52,6 @@ class MeshReport:
     reasons: tuple[str, ...]
 
 
-def mesh(
-    points: ArrayLike,
-    segments: ArrayLike | None = None,
-    *,
-    triangles: ArrayLike | None = None,
-    attributes: ArrayLike | None = None,
-    holes: ArrayLike | None = None,
-    regions: ArrayLike | None = None,
-    min_angle: float = 20.0,
-    max_area: float | None = None,
-    max_edge: float | None = None,
-    edge: float | None = None,
-    growth: float = 1.2,
-    size: Size | None = None,
-    refine_if: Test | None = None,
-    max_vertices: int | None = None,
-    keep: str = "nothing",
-    conforming: bool = False,
-    smooth: int = 0,
-    fill: str | None = None,
-    crossings: str = "refuse",
-    keep_concavities: bool = False,
-) -> Mesh:
-    """Meshes what segments bound: a constrained Delaunay triangulation with new points, so that its triangles have no small
-    angles and are no larger than wanted.
-
-    The mesh is a function of the points and segments. It always ends, and its `report` names each triangle that is not as it was
-    to be, and why. Some 0.3 microseconds a triangle, without Python's lock unless `size` is a function; Ctrl-C ends it.
-
-    Parameters
-    ----------
-    points : array_like of floats, shape (n, 2), or polygons
-        The points. All must be finite. Of equal points the first is the vertex. Or polygons, as shapely, geopandas and GeoJSON
-        have them: their corners are the points, their sides the segments, and the mesh is inside.
-    segments : array_like of integers, shape (m, 2), optional
-        The ends of segments, by indices of points. They may pass through points, overlap and repeat each other.
-    triangles : array_like of integers, shape (t, 3), optional
-        A mesh that there is, by indices of points. Its triangles stay, Delaunay or not, until a new vertex comes near, but where
-        `edge` is given. The inside is what they cover, and their border is a segment each. `parents` tells in which of them each
-        new one is.
-    attributes : array_like of floats, shape (t,), optional
-        A number for each of `triangles`, such as its material: sides between triangles of other numbers are segments, and new
-        triangles have the number of the one that they are in.
-    holes : array_like of floats, shape (k, 2), optional
-        A point in each hole.
-    regions : array_like of floats, shape (k, 2), (k, 3) or (k, 4), optional
-        A point in each region, an attribute for its triangles, which is the index of the region if there is none, and the largest
-        area of its triangles; NaN and what is not positive is no bound.
-    min_angle : float
-        No angle is to be smaller, in degrees: from 0, which asks for nothing, to less than 60. Up to 28.6 is proven where
-        segments meet at 60 degrees or more, and 34 is reached in practice. More is tried, with at most twice the points of 34
-        degrees if `max_vertices` says nothing else; `report.left` tells where it failed.
-    max_area : float, optional
-        No triangle is to be larger.
-    max_edge : float, optional
-        No edge is to be longer, segments included.
-    edge : float, optional
-        The length that edges are to have: triangles become nearly equilateral and grow smoothly. It is what is wanted and no
-        bound; most edges have from 0.9 to 1.15 times it. Infinite where `size` says all.
-    growth : float
-        With `edge`, neighboring edges differ by at most this factor, which is more than 1.
-    size : float, function or array_like of shape (n,), optional
-        No edge of a triangle is to be longer than this at its centroid: a number, what a function says of x and y, or linear
-        between points that have a number each, on their Delaunay triangulation. Infinite is no bound. With `edge` it is a length
-        that is wanted, too.
-    refine_if : function, optional
-        Whether a triangle is to be refined, of its corners, an array (3, 2), and its area. If it always says yes, it ends at the
-        larger of 2^21 new vertices and 64 a point, or at `max_vertices`.
-    max_vertices : int, optional
-        So many new points at most.
-    keep : str
-        Segments that are not split: "nothing", those at the "border" of the mesh, or all "constraints".
-    conforming : bool
-        No point is inside of the diametral circle of a segment, so that all triangles are Delaunay.
-    smooth : int
-        Rounds of smoothing afterwards: new points move a little, and angles become larger. What was asked for still holds.
-    fill : str, optional
-        What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
-        around. "nonzero": what segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what no
-        segments part from the outside. The last one with `holes` or `regions`; else "even-odd" with segments, "all" without.
-    crossings : str
-        What happens where segments cross: "refuse" is a CrossingError, "split" makes points there.
-    keep_concavities : bool
-        With "seeds": what no segments part from the outside is inside.
-
-    Raises
-    ------
-    TypeError, ValueError, IndexError
-        What is wrong with the arguments, and where. ValueError for a size that is NaN, zero or negative. What a function raises
-        is passed on as it is.
-    MemoryError
-        There is no room for as many triangles as `max_area` or `max_edge` ask for.
-
-    Examples
-    --------
-    A square with a triangular hole.
-
-    >>> import delone
-    >>> points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [3, 1], [2, 3]]
-    >>> segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]]
-    >>> made = delone.mesh(points, segments, min_angle=30, max_area=0.1)
-    >>> round(made.area, 12), len(made.report.left), made.report.smallest_angle >= 30
-    (14.0, 0, True)
-    >>> made.triangles.shape[1], made.points[:7].tolist() == points
-    (3, True)
-
-    A mesh from elsewhere, finer in one material.
-
-    >>> corners = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]]
-    >>> given = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]]
-    >>> finer = delone.mesh(corners, triangles=given, attributes=[7, 7, 8, 8],
-    ...     refine_if=lambda corners, area: area > 0.05 and corners[:, 0].mean() > 1)
-    >>> [round(float(finer.areas[finer.attributes == k].sum()), 12) for k in (7, 8)]
-    [1.0, 1.0]
-    """
-    given, ends, _ = points_and_segments(points, segments)
-    wanted = wanted_of(
-        min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, refine_if, len(given)
-    )
-    split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
-    seeded = holes is not None or regions is not None
-    concave = as_flag(keep_concavities, "keep_concavities")
-    if triangles is not None:
-        if seeded or concave or fill is not None:
-            raise ValueError("holes, regions, fill and keep_concavities say nothing of triangles: the inside is what they cover")
-        corners = triangles_of(triangles, len(given))
-        known = None if attributes is None else _attributes(attributes, len(corners))
-        first = Mesh._of_triangles(given, ends, split, corners, known)
-        again: Wishes = {**_PLAIN, **wanted}
-        return Mesh._make(first, again, first._recipe[2])
-    if attributes is not None:
-        raise ValueError("attributes are those of triangles: give these, too")
-    plain = "seeds" if seeded else "even-odd" if len(ends) else "all"
-    filled = plain if fill is None else as_choice(fill, FILLS, "fill")
-    if filled != "seeds" and (seeded or concave):
-        raise ValueError(f"holes, regions and keep_concavities are for fill='seeds', not {filled!r}")
-    seeds, of_regions = regions_of(regions)
-    wishes: Wishes = {**_PLAIN, **wanted}
-    wishes["fill"], wishes["holes"], wishes["regions"] = filled, seeds_of(holes), seeds
-    wishes["keep_concavities"] = concave
-    return Mesh._make((given, ends, split), wishes, of_regions)
-
-
-#: Nothing wanted, nothing given.
-_PLAIN: Wishes = {
-    "fill": "even-odd",
-    "holes": np.empty((0, 2)),
-    "regions": np.empty((0, 3)),
-    "keep_concavities": False,
-    "min_angle": 0.0,
-    "max_area": None,
-    "max_edge": None,
-    "edge": None,
-    "growth": 1.2,
-    "max_vertices": None,
-    "keep": "nothing",
-    "conforming": False,
-    "smooth": 0,
-    "size": None,
-    "refine_if": None,
-    "max_areas": None,
-    "of": None,
-    "triangles": None,
-}
-
-
-def _attributes(values: ArrayLike, count: int) -> NDArray[np.float64]:
-    array = as_numbers(values, "attributes")
-    if array.shape != (count,):
-        raise ValueError(f"attributes must have the shape ({count},), one number each, not {array.shape}")
-    return np.array(array, dtype=np.float64)
-
-
 class Mesh:
     """Triangles, and where they come from; `mesh` makes it. All arrays are read-only."""
 
@@ -261,7 +86,7 @@ class Mesh:
         sides = sides_of(corners, first[segments], np.empty((0, 0)) if attributes is None else attributes[:, None])
         origin = (points, sides.segments, split, np.maximum(sides.origins, -1), attributes)
         try:
-            return cls._make(origin, {**_PLAIN, "triangles": corners}, np.empty(0))
+            return cls._make(origin, {**PLAIN, "triangles": corners}, np.empty(0))
         except CrossingError as error:
             one, other = sides.origins[[error.first, error.second]].tolist()
             x, y = error.near
@@ -283,7 +108,9 @@ class Mesh:
         self._recipe, self._cache = state, {}
         origin, wishes, _ = state
         if isinstance(origin, Mesh):
-            self._core = origin._core.again(wishes)
+            marked = wishes["coarsen"]
+            core = origin._core
+            self._core = core.again(wishes) if marked is None else core.coarser(marked, wishes["min_angle"])
         else:
             points, segments, split = origin[:3]
             self._core = _delone.Mesh(points, segments, split, wishes)
@@ -520,7 +347,40 @@ class Mesh:
             refine_if,
             len(self.points),
         )
-        wishes: Wishes = {**old, **wanted, "max_areas": areas, "of": None, "triangles": None}
+        wishes: Wishes = {**old, **wanted, "max_areas": areas, "of": None, "triangles": None, "coarsen": None}
+        return Mesh._make(self, wishes, self._recipe[2])
+
+    def coarsen(self, *, marked: ArrayLike, min_angle: float = 20.0) -> Mesh:
+        """A coarser mesh: new points go where all triangles around are marked. The points keep their indices; those that went are
+        in no triangle. `parents` tells which old triangle holds the centroid of each new one.
+
+        A call takes away no two neighbors; several calls go further. Points that were given stay, and so do those on segments
+        that are not exactly straight there.
+
+        Parameters
+        ----------
+        marked : array_like of bools, shape (t,), or of integers
+            Triangles that may be larger, by a flag for each or by their rows.
+        min_angle : float
+            No angle falls below so many degrees, or below the smallest around.
+
+        Raises
+        ------
+        TypeError, ValueError, IndexError
+            For flags, rows or angles that are none.
+
+        Examples
+        --------
+        >>> import delone
+        >>> fine = delone.mesh([[0, 0], [1, 0], [1, 1], [0, 1]], max_area=0.002)
+        >>> coarse = fine.coarsen(marked=fine.points[fine.triangles].mean(axis=1)[:, 0] > 0.5)
+        >>> len(coarse.triangles) < len(fine.triangles), round(coarse.area, 12)
+        (True, 1.0)
+        """
+        flags = flags_of(marked, "marked", len(self.triangles))
+        old: Wishes = self._recipe[1]
+        wishes: Wishes = {**old, "min_angle": float(min_angle), "max_areas": None, "of": None, "triangles": None}
+        wishes["coarsen"] = np.array(flags)
         return Mesh._make(self, wishes, self._recipe[2])
 
     def check(self) -> None:

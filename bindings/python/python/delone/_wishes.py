@@ -47,6 +47,8 @@ class Wishes(Wanted):
     of: _delone.Constrained | None
     #: Triangles that stay until a vertex comes near.
     triangles: NDArray[np.int64] | None
+    #: Triangles whose vertices go; what is wanted besides is then `min_angle`.
+    coarsen: NDArray[np.bool_] | None
 
 
 FILLS = ("all", "even-odd", "nonzero", "seeds")
@@ -178,3 +180,27 @@ def triangles_of(triangles: ArrayLike, count: int) -> NDArray[np.int64]:
         row = int(np.argmax(((corners < 0) | (corners >= count)).any(axis=1)))
         raise IndexError(f"triangle {row} has the corners {corners[row].tolist()}, and there are {count} points")
     return corners
+
+
+#: Nothing wanted, nothing given.
+PLAIN: Wishes = {
+    "fill": "even-odd",
+    "holes": np.empty((0, 2)),
+    "regions": np.empty((0, 3)),
+    "keep_concavities": False,
+    "min_angle": 0.0,
+    "max_area": None,
+    "max_edge": None,
+    "edge": None,
+    "growth": 1.2,
+    "max_vertices": None,
+    "keep": "nothing",
+    "conforming": False,
+    "smooth": 0,
+    "size": None,
+    "refine_if": None,
+    "max_areas": None,
+    "of": None,
+    "triangles": None,
+    "coarsen": None,
+}

@@ -53,7 +53,7 @@ fn inside(c: &Constrained2, refined: &Refined2) -> BTreeSet<Corners> {
 pub(super) fn attack(before: &Constrained2, wish: &Wish, again: &Wish, random: &mut Random) -> Judgement {
     let given = flipped(before, random);
     let mut c = before.clone();
-    let bare = Refinement::new().min_angle(0.0).fill(wish.fill()).triangles(&given);
+    let bare = Refinement::new().min_angle(0.0).triangles(&given);
     if let Ok(refined) = bare.run(&mut c) {
         let known: BTreeSet<Corners> = given.iter().copied().collect();
         if !inside(&c, &refined).is_subset(&known) {
