@@ -145,11 +145,10 @@ impl Mesh {
                 if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
                     continue;
                 }
-                let covering = c.covering(e);
-                if covering.iter().all(|on| this.refined.kept.binary_search(&on.segment).is_ok()) {
+                if this.refined.only_keeps(c, e) {
                     continue;
                 }
-                let first = covering.into_iter().min().filter(|on| on.segment.index() < this.given);
+                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < this.given);
                 let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
                 if first.is_some_and(|on| !on.is_forward) {
                     pair.reverse();

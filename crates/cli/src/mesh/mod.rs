@@ -200,7 +200,7 @@ impl Made {
         let lines = features::of_lines(c, graph);
         let (mut edge_markers, mut edge_rows) = (Vec::new(), Vec::new());
         for (i, ([v, w], e)) in c.constraints().zip(c.constraint_edges()).enumerate() {
-            if self.only_keeps(e) {
+            if self.refined.only_keeps(c, e) {
                 continue;
             }
             if let (Some(v), Some(w)) = (kept.name(v), kept.name(w)) {
@@ -253,13 +253,6 @@ impl Made {
             })?;
         }
         Ok(())
-    }
-
-    /// Whether an edge is a constraint only to keep triangles that were given.
-    fn only_keeps(&self, e: EdgeId) -> bool {
-        let kept = &self.refined.kept;
-        let is_kept = |segment: SegmentId| kept.binary_search(&segment).is_ok();
-        !kept.is_empty() && self.triangulation.covering(e).iter().all(|one| is_kept(one.segment))
     }
 
     /// The region of each triangle, if regions are written.

@@ -8,3 +8,4 @@ mod frontal;
 mod judge;
 mod kept;
 mod nasty;
+mod quads;

@@ -8,10 +8,19 @@
 
 use delone_predicates::in_circle;
 
+use super::Refined2;
 use super::free::Met;
 use super::mesher::Mesher;
 use crate::ids::{EdgeId, TriangleId};
-use crate::plane::constrained::sorted;
+use crate::plane::constrained::{Constrained2, SegmentId, sorted};
+
+impl Refined2 {
+    /// Whether a constraint edge is there only to keep triangles ([`super::Refinement::triangles`]), and is no border.
+    pub fn only_keeps(&self, c: &Constrained2, e: EdgeId) -> bool {
+        let is_kept = |segment: SegmentId| self.kept.binary_search(&segment).is_ok();
+        !self.kept.is_empty() && c.covering(e).iter().all(|one| is_kept(one.segment))
+    }
+}
 
 impl Mesher<'_> {
     /// A walk as [`Self::walk`], on which kept edges in the way go, and so do those that part the point from its cavity. Nothing if

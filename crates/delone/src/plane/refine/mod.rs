@@ -18,6 +18,7 @@ mod free;
 mod frontal;
 mod kept;
 mod mesher;
+mod quads;
 mod queue;
 mod report;
 mod rules;
@@ -27,6 +28,7 @@ mod smooth;
 mod split;
 mod survey;
 
+pub use quads::Quads2;
 pub use report::{Reason, RefinementReport2, Unrefined2};
 pub use shapes::Shapes2;
 

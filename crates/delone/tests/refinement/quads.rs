@@ -1,0 +1,95 @@
+//! Triangles in pairs: convex quadrilaterals that cover what they covered, whatever the order of the input.
+
+use std::collections::BTreeSet;
+
+use delone::{Constrained2, Fill, Quads2, Refined2, Refinement, TriangleId, VertexId};
+use delone_generators::Random;
+use delone_oracle::exact;
+
+use super::judge::{Points, Segments};
+use super::nasty::nasty;
+
+/// Every triangle inside is in one pair or is left, and pairs are convex and on one side of constraints.
+fn judge(c: &Constrained2, refined: &Refined2, quads: &Quads2, name: &str) {
+    let mut seen: Vec<TriangleId> = quads.pairs.iter().flatten().chain(&quads.triangles).copied().collect();
+    seen.sort_unstable();
+    let inside: Vec<TriangleId> = c.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
+    assert_eq!(seen, inside, "{name}");
+    let walls: BTreeSet<[VertexId; 2]> = c.constraints().collect();
+    for (corners, pair) in quads.corners.iter().zip(&quads.pairs) {
+        let of = |t: TriangleId| c.mesh().corners(t).into_iter().collect::<BTreeSet<_>>();
+        assert_eq!(&of(pair[0]) | &of(pair[1]), corners.iter().copied().collect(), "{name}");
+        let [a, _, b, _] = corners;
+        assert!(!walls.contains(&[*a.min(b), *a.max(b)]), "{name}: a constraint is a diagonal");
+        let p = corners.map(|v| c.point(v));
+        for k in 0..4 {
+            let [before, at, after] = [p[(k + 3) % 4], p[k], p[(k + 1) % 4]];
+            assert!(exact::orient2d(before, at, after) > 0, "{name}");
+            let angle = |q: [f64; 2]| (q[1] - at[1]).atan2(q[0] - at[0]);
+            let degrees = (angle(before) - angle(after)).to_degrees().rem_euclid(360.0);
+            assert!((29.999..150.001).contains(&degrees), "{name}: {degrees}");
+        }
+    }
+}
+
+#[test]
+fn few_triangles_are_left() {
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    for (edge, largest_part) in [(0.2, 0.12), (0.05, 0.06), (0.02, 0.04)] {
+        let mut c = Constrained2::from_parts(&square, &[]).expect("finite");
+        let refined = Refinement::new().edge(edge).min_angle(30.0).run(&mut c).expect("it ends");
+        let quads = Quads2::of(&c, &refined);
+        judge(&c, &refined, &quads, "square");
+        let part = quads.triangles.len() as f64 / refined.report.triangles as f64;
+        assert!(part < largest_part, "{edge}: {part}");
+    }
+    // Squares that are cut in two become squares again.
+    let points: Points = (0..81).map(|i| [f64::from(i % 9), f64::from(i / 9)]).collect();
+    let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
+    let refined = Refinement::new().min_angle(0.0).run(&mut c).expect("it ends");
+    let quads = Quads2::of(&c, &refined);
+    judge(&c, &refined, &quads, "grid");
+    assert_eq!((quads.corners.len(), quads.triangles.len()), (64, 0));
+}
+
+#[test]
+fn constraints_are_no_diagonals() {
+    for (name, points, segments) in &nasty() {
+        let built = Constrained2::with_crossings(points, segments, delone::Crossings::Split);
+        let Ok(mut c) = built else { continue };
+        let wanted = Refinement::new().min_angle(20.0).max_vertices(300).fill(Fill::EvenOdd);
+        let refined = wanted.run(&mut c).expect("it ends");
+        judge(&c, &refined, &Quads2::of(&c, &refined), name);
+    }
+}
+
+#[test]
+fn pairs_are_a_function_of_the_input() {
+    let corners: Points = vec![[0.0, 0.0], [3.0, 0.0], [3.5, 2.0], [1.0, 2.5], [0.2, 1.0]];
+    let sides: Segments = (0..5).map(|k| [k, (k + 1) % 5]).collect();
+    let run = |points: &Points, segments: &Segments| {
+        let mut c = Constrained2::from_parts(points, segments).expect("finite");
+        let wanted = Refinement::new().edge(0.2).min_angle(30.0).fill(Fill::EvenOdd);
+        let refined = wanted.run(&mut c).expect("it ends");
+        let quads = Quads2::of(&c, &refined);
+        judge(&c, &refined, &quads, "pentagon");
+        let sorted = |corners: &[VertexId; 4]| {
+            let mut places = corners.map(|v| c.point(v).map(f64::to_bits));
+            places.sort_unstable();
+            places
+        };
+        quads.corners.iter().map(sorted).collect::<BTreeSet<_>>()
+    };
+    let expected = run(&corners, &sides);
+    let mut random = Random::new(8);
+    for _ in 0..4 {
+        let mut order: Vec<usize> = (0..5).collect();
+        random.shuffle(&mut order);
+        let mut rank = vec![0; 5];
+        order.iter().enumerate().for_each(|(new, &old)| rank[old] = new);
+        let moved: Points = order.iter().map(|&old| corners[old]).collect();
+        let mut renamed: Segments = sides.iter().map(|s| s.map(|v| rank[v])).collect();
+        random.shuffle(&mut renamed);
+        assert_eq!(run(&moved, &renamed), expected);
+    }
+}
