@@ -5,7 +5,8 @@ mod plan;
 use std::sync::Arc;
 
 use delone::{
-    Ask as _, Constrained2, Crossings, Domains2, Reason, Refined2, Shapes2, TriangleId, Triangulation as _,
+    Ask as _, Constrained2, Crossings, Domains2, Quads2, Reason, Refined2, Shapes2, TriangleId,
+    Triangulation as _,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -22,6 +23,9 @@ use plan::{Said, Wishes};
 
 /// Coordinates or indices, a row each.
 type Table<'py, T> = Bound<'py, PyArray2<T>>;
+
+/// Two tables and a list.
+type Quads<'py> = (Table<'py, i64>, Table<'py, i64>, Bound<'py, PyArray1<i64>>);
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
@@ -180,6 +184,18 @@ impl Mesh {
     fn shapes(&self, py: Python<'_>) -> PyResult<(f64, f64, f64)> {
         let shapes = self.of(py, |this| Shapes2::of(&this.made, &this.refined.domains))?;
         Ok((shapes.quality_mean, shapes.quality_p5, shapes.step_p95))
+    }
+
+    /// Corners of quadrilaterals, the rows of the two triangles of each, and the rows of those that are left.
+    fn quads<'py>(&self, py: Python<'py>) -> PyResult<Quads<'py>> {
+        let (corners, pairs, left) = self.of(py, |this| {
+            let quads = Quads2::of(&this.made, &this.refined);
+            let row = |t: &TriangleId| this.rows[t.index()];
+            let corners: Vec<i64> = quads.corners.iter().flatten().map(|v| v.index() as i64).collect();
+            let pairs: Vec<i64> = quads.pairs.iter().flatten().map(row).collect();
+            (corners, pairs, quads.triangles.iter().map(row).collect())
+        })?;
+        Ok((table(py, 4, corners)?, table(py, 2, pairs)?, PyArray1::from_vec(py, left)))
     }
 
     /// The rows of triangles that are not as they were to be, and why.

@@ -152,6 +152,20 @@ def test_meshes_are_made_coarser():
         made.coarsen(marked=[0], min_angle=60)
 
 
+def test_quadrilaterals():
+    made = delone.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], edge=0.1)
+    corners, pairs, left = made.quads
+    assert sorted([*pairs.ravel().tolist(), *left.tolist()]) == list(range(len(made.triangles)))
+    x, y = made.points[corners].transpose(2, 0, 1)
+    areas = ((x * np.roll(y, -1, axis=1)) - (y * np.roll(x, -1, axis=1))).sum(axis=1) / 2
+    assert areas == pytest.approx(made.areas[pairs].sum(axis=1))
+    walls = set(map(frozenset, made.segments.tolist()))
+    assert not walls & set(map(frozenset, corners[:, [0, 2]].tolist()))
+    assert len(left) < 0.2 * len(made.triangles)
+    points, triangles = grid(4)
+    assert len(delone.mesh(points, triangles=triangles).quads.corners) == 16
+
+
 def test_lengths_of_edges_make_all_anew():
     points, triangles = grid(2)
     made = delone.mesh(points / 2, triangles=triangles, edge=0.1, min_angle=30)

@@ -41,7 +41,7 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
-from ._mesh import Mesh, MeshReport, MeshShapes
+from ._mesh import Mesh, MeshQuads, MeshReport, MeshShapes
 from ._meshing import mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
@@ -69,6 +69,7 @@ __all__ = [
     "LinearInterpolator",
     "LinearNDInterpolator",
     "Mesh",
+    "MeshQuads",
     "MeshReport",
     "MeshShapes",
     "NaturalNeighborInterpolator",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,17 @@ class MeshShapes:
     quality_p5: float
     #: A ratio of areas that 5 percent of the pairs of neighbors exceed.
     step_p95: float
+
+
+class MeshQuads(NamedTuple):
+    """Quadrilaterals and triangles that cover a mesh."""
+
+    #: The corners of each quadrilateral as indices of points, counter-clockwise: (q, 4).
+    corners: NDArray[np.int64]
+    #: The rows of the two triangles of each: (q, 2).
+    pairs: NDArray[np.int64]
+    #: The rows of the triangles that stay: (r,).
+    triangles: NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -255,6 +266,21 @@ class Mesh:
         (True, True)
         """
         return self._once("shapes", lambda: MeshShapes(*self._core.shapes()))
+
+    @property
+    def quads(self) -> MeshQuads:
+        """Triangles in pairs that make convex quadrilaterals with angles from 30 to 150 degrees, and the triangles that stay. No
+        quadrilateral crosses a segment. For solvers that want quadrilaterals.
+
+        Examples
+        --------
+        >>> import delone
+        >>> made = delone.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], edge=0.1)
+        >>> quads = made.quads
+        >>> quads.corners.shape[1], 2 * len(quads.corners) + len(quads.triangles) == len(made.triangles)
+        (4, True)
+        """
+        return self._once("quads", lambda: MeshQuads(*self._core.quads()))
 
     @property
     def parents(self) -> NDArray[np.int64]:
