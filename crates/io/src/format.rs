@@ -242,6 +242,17 @@ impl Format {
         }
     }
 
+    /// Whether files of this format have names of regions or boundaries ([`crate::Names`]).
+    ///
+    /// ```
+    /// use delone_io::Format;
+    ///
+    /// assert!(Format::Msh.keeps_names() && !Format::Vtu.keeps_names());
+    /// ```
+    pub fn keeps_names(self) -> bool {
+        matches!(self, Self::Poly | Self::Msh | Self::Inp)
+    }
+
     /// The extensions of the files beside one of this format that are read with it.
     pub fn sides(self) -> &'static [&'static str] {
         if self == Self::Shapefile { crate::formats::shapefile::SIDES } else { &[] }

@@ -11,7 +11,8 @@ use crate::formats::{
 };
 use crate::middles::{Middles, ordered};
 use crate::{
-    Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Table, Trim, picture, write_solid,
+    Attributes, Contents, Crs, Direction, Error, Format, Names, Remark, Shape, Table, Trim, picture,
+    write_solid,
 };
 
 /// A triangulation to be written, with what lies beside it.
@@ -45,6 +46,8 @@ pub struct Mesh<'a, T: Triangulation> {
     pub constraints: Option<&'a Constraints<'a>>,
     /// The region of each simplex, by its index.
     pub regions: Option<&'a [f64]>,
+    /// Names of regions, and of boundaries by their markers.
+    pub names: Option<&'a Names>,
     /// The attributes of the polygons that triangles are in, which GeoJSON, FlatGeobuf and GeoPackage have.
     pub features: Option<Rows<'a>>,
     /// Values of the points by id, which `.node` and `.poly` files have instead of heights.
@@ -121,6 +124,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             trim: None,
             constraints: None,
             regions: None,
+            names: None,
             features: None,
             attributes: None,
             point_markers: None,
@@ -409,8 +413,8 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
         Format::Neigh => triangle::write_neigh(out, mesh)?,
         Format::Edge => triangle::write_edge(out, mesh)?,
         Format::Vtu => return Ok(vtu::write_mesh(out, mesh)?),
-        Format::Msh => msh::write(out, mesh)?,
-        Format::Inp => inp::write(out, mesh)?,
+        Format::Msh => return Ok(msh::write(out, mesh)?),
+        Format::Inp => return Ok(inp::write(out, mesh)?),
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }
     Ok(None)
