@@ -17,8 +17,11 @@ fn files_and_options_name() {
     let place = Place::new();
     place.file("two.poly", PLATES);
     let outputs = "-o m.msh -o m.inp -o m.poly -o m.ply -o m.png";
-    let told =
-        place.succeed(&format!("mesh two.poly --boundary 3=outlet --boundary 7=x --region 5=y {outputs}"));
+    let told = text(
+        &place
+            .run(&format!("mesh two.poly --boundary 3=outlet --boundary 7=x --region 5=y {outputs}"))
+            .stderr,
+    );
     for line in [
         "no boundary has the marker 7 of \"x\": there are 1, 2, 3, 9",
         "no region has the number 5 of \"y\": there are 1, 2",

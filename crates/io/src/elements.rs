@@ -6,9 +6,10 @@
 
 use delone::{Coordinates, Triangulation, VertexId};
 
+use crate::error::listed;
 use crate::middles::{Middles, ordered};
 use crate::names::{Number, Rule};
-use crate::{Mesh, Names};
+use crate::{Mesh, Names, Remark};
 
 /// The corners of the facet of a tetrahedron opposite to each corner, counter-clockwise seen from outside.
 pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
@@ -53,6 +54,7 @@ pub(crate) struct Group {
     pub(crate) tag: u32,
     /// The number, if it is a whole one of 32 bits.
     whole: Option<i32>,
+    number: f64,
     /// The kind and the number, which is the name of what has no other.
     label: String,
     /// The name that was given.
@@ -80,14 +82,9 @@ impl Group {
         self.whole.map_or(self.tag.into(), i64::from)
     }
 
-    /// Whether the number is no whole one, so that the reference is another.
-    pub(crate) fn is_renumbered(&self) -> bool {
-        self.whole.is_none()
-    }
-
-    /// The elements by their places among all.
-    pub(crate) fn members(&self) -> &[usize] {
-        &self.members
+    /// The number that the elements have in common.
+    pub(crate) fn number(&self) -> f64 {
+        self.number
     }
 
     /// The nodes of each element.
@@ -170,6 +167,35 @@ impl Elements {
         let sides = rule.of(self.sides.iter().map(Group::name), &mut changed);
         let cells = rule.of(self.cells.iter().map(Group::name), &mut changed);
         Permitted { sides, cells, changed }
+    }
+
+    /// A remark for formats whose numbers are any whole ones, and that have no names.
+    pub(crate) fn renumbered(&self) -> Remark {
+        self.changed(|group| (group.whole.is_none()).then(|| group.reference()))
+    }
+
+    /// A remark for formats whose numbers are positive.
+    pub(crate) fn retagged(&self) -> Remark {
+        self.changed(|group| {
+            (group.whole.and_then(|whole| whole.try_into().ok()) != Some(group.tag)).then(|| group.tag.into())
+        })
+    }
+
+    fn changed(&self, number: impl Fn(&Group) -> Option<i64>) -> Remark {
+        let groups = self.sides.iter().chain(&self.cells);
+        let changed: Vec<String> =
+            groups.filter_map(|group| Some(format!("{} is {}", group.label, number(group)?))).collect();
+        (!changed.is_empty()).then(|| {
+            format!(
+                "numbers that it does not permit are changed: {}",
+                listed(changed.iter().map(String::as_str))
+            )
+        })
+    }
+
+    /// A remark for formats whose points of the plane have no third coordinate.
+    pub(crate) fn without_heights(&self) -> Remark {
+        self.has_heights.then(|| "heights are left out".to_owned())
     }
 
     /// The nodes that cells use, and the number of each node among them, from 0.
@@ -270,6 +296,7 @@ fn grouped<'a, N: Number>(
         Group {
             tag: number.tag().or_else(|| free.next()).unwrap_or_default(),
             whole: number.whole(),
+            number: number.value(),
             label: format!("{kind}_{}", number.label()),
             given: given(number).map(str::to_owned),
             width: elements[part[0]].len(),

@@ -9,6 +9,7 @@
 struct Readme;
 
 mod answers;
+mod border;
 mod cell;
 mod chunks;
 mod cloud;
@@ -39,6 +40,7 @@ pub mod picture;
 mod polyhedra;
 mod raster;
 mod solid;
+mod strings;
 mod xml;
 
 pub use answers::{Answers, Found, write_answers};
@@ -276,11 +278,12 @@ pub fn read_numbers(source: Box<dyn Source>, format: Format) -> Result<Vec<f64>,
     format.readers().numbers.ok_or_else(|| format.without(Contents::Numbers, Direction::Read))?(source)
 }
 
-/// Reads the attributes of the triangles of an `.ele` file, or their groups in a file of Gmsh, a row each; other formats have none.
+/// Reads the attributes of the triangles of an `.ele` file, or their groups in files of Gmsh and Medit, a row each; other formats have none.
 pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Result<Attributes, Error> {
     match format {
         Format::Ele => Ok(formats::triangle::read_ele::<3>(source, true)?.1),
         Format::Msh => formats::msh::read_groups(source),
+        Format::Medit => Ok(formats::medit::read(source)?.regions()),
         _ => Ok(Attributes::default()),
     }
 }

@@ -7,7 +7,8 @@ use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::vector::Layer;
 use crate::formats::{
-    geojson, geopackage, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt,
+    adcirc, geojson, geopackage, inp, medit, msh, nastran, npy, obj, off, ply, poly, sms, stl, su2, triangle,
+    vector, vtu, wkb, wkt, xdmf,
 };
 use crate::middles::{Middles, ordered};
 use crate::{
@@ -360,6 +361,8 @@ impl Drawable for [f64; 2] {
                 geopackage::write(out, layers)?;
             }
             Format::Poly => poly::write(out, mesh)?,
+            Format::Sms => return Ok(sms::write(out, mesh)?),
+            Format::Adcirc => return Ok(adcirc::write(out, mesh)?),
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,
             Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
@@ -415,6 +418,10 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
         Format::Vtu => return Ok(vtu::write_mesh(out, mesh)?),
         Format::Msh => return Ok(msh::write(out, mesh)?),
         Format::Inp => return Ok(inp::write(out, mesh)?),
+        Format::Medit => return Ok(medit::write(out, mesh)?),
+        Format::Su2 => return Ok(su2::write(out, mesh)?),
+        Format::Nastran => return Ok(nastran::write(out, mesh)?),
+        Format::Xdmf => return Ok(xdmf::write(out, mesh)?),
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }
     Ok(None)

@@ -145,6 +145,8 @@ pub(crate) trait Number: Copy {
     fn label(self) -> String {
         self.text().replace('.', "p")
     }
+    /// The number as a double, which rounds those of many digits.
+    fn value(self) -> f64;
     /// The number as a whole one of 32 bits with sign.
     fn whole(self) -> Option<i32>;
     /// The number as a tag, which is positive.
@@ -162,6 +164,10 @@ impl Number for i64 {
         self.to_string()
     }
 
+    fn value(self) -> f64 {
+        self as f64
+    }
+
     fn whole(self) -> Option<i32> {
         i32::try_from(self).ok()
     }
@@ -177,6 +183,10 @@ impl Number for f64 {
         // Zero has no sign here.
         let digits = format!("{:?}", self + 0.0);
         digits.strip_suffix(".0").unwrap_or(&digits).to_owned()
+    }
+
+    fn value(self) -> f64 {
+        self
     }
 
     fn whole(self) -> Option<i32> {
