@@ -171,25 +171,20 @@ impl Elements {
 
     /// A remark for formats whose numbers are any whole ones, and that have no names.
     pub(crate) fn renumbered(&self) -> Remark {
-        self.changed(|group| (group.whole.is_none()).then(|| group.reference()))
+        changed(self.sides.iter().chain(&self.cells), |group| {
+            (group.whole.is_none()).then(|| group.reference())
+        })
+    }
+
+    /// A remark for those that have sides alone.
+    pub(crate) fn renumbered_sides(&self) -> Remark {
+        changed(self.sides.iter(), |group| group.whole.is_none().then(|| group.reference()))
     }
 
     /// A remark for formats whose numbers are positive.
     pub(crate) fn retagged(&self) -> Remark {
-        self.changed(|group| {
+        changed(self.sides.iter().chain(&self.cells), |group| {
             (group.whole.and_then(|whole| whole.try_into().ok()) != Some(group.tag)).then(|| group.tag.into())
-        })
-    }
-
-    fn changed(&self, number: impl Fn(&Group) -> Option<i64>) -> Remark {
-        let groups = self.sides.iter().chain(&self.cells);
-        let changed: Vec<String> =
-            groups.filter_map(|group| Some(format!("{} is {}", group.label, number(group)?))).collect();
-        (!changed.is_empty()).then(|| {
-            format!(
-                "numbers that it does not permit are changed: {}",
-                listed(changed.iter().map(String::as_str))
-            )
         })
     }
 
@@ -276,6 +271,14 @@ fn owners_of<T: Triangulation>(
         }
     }
     owners.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// A remark on groups whose numbers a format does not permit, and the numbers that they have there.
+fn changed<'a>(groups: impl Iterator<Item = &'a Group>, number: impl Fn(&Group) -> Option<i64>) -> Remark {
+    let changed: Vec<String> =
+        groups.filter_map(|group| Some(format!("{} is {}", group.label, number(group)?))).collect();
+    let list = listed(changed.iter().map(String::as_str));
+    (!changed.is_empty()).then(|| format!("numbers that it does not permit are changed: {list}"))
 }
 
 /// Groups by increasing number; elements keep their order in each.

@@ -388,7 +388,7 @@ fn second_order_is_refused_before_anything_is_written() {
             Err(other) => panic!("{format}: {other}"),
         }
     }
-    assert_eq!(refused, 10 + usize::from(cfg!(feature = "geopackage")));
+    assert_eq!(refused, 13 + usize::from(cfg!(feature = "geopackage")));
     assert!(matches!(
         <[f64; 2]>::check_second_order(Format::Las),
         Err(Error::Unsupported { format: Format::Las, .. })

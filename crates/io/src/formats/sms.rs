@@ -28,7 +28,7 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
     let Permitted { sides, changed, .. } = elements.names(Rule::WORD);
     let (used, number_of) = elements.dense();
     let node = |node: usize| number_of[node] + 1;
-    writeln!(out, "MESH2D")?;
+    writeln!(out, "MESH2D\nNUM_MATERIALS_PER_ELEM 1")?;
     let (card, order) = if elements.second_order { ("E6T", &AROUND[..]) } else { ("E3T", &[0, 1, 2][..]) };
     let mut number = 0;
     for group in &elements.cells {

@@ -41,6 +41,9 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
     }
     writeln!(out, "NMARK= {}", elements.sides.len())?;
     for (group, name) in elements.sides.iter().zip(&names.sides) {
+        // A marker without a name is called by its number, which meshio keeps.
+        let number = group.reference().to_string();
+        let name = if group.is_named() { name } else { &number };
         writeln!(out, "MARKER_TAG= {name}\nMARKER_ELEMS= {}", group.rows().len())?;
         for nodes in group.rows() {
             row(out, nodes)?;
@@ -48,7 +51,7 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         }
     }
     let regions = elements.has_regions.then(|| "regions are left out".to_owned());
-    Ok(together([regions, elements.without_heights(), told(&names.changed)]))
+    Ok(together([regions, elements.without_heights(), elements.renumbered_sides(), told(&names.changed)]))
 }
 
 /// Reads a mesh. A marker is called by its number, or gets the least one from 1 that is free.
@@ -120,7 +123,7 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
 
 /// The numbers of markers, and the names of those that have some.
 fn numbers_of(tags: &[(String, usize)], found: &mut Listed) -> Result<Vec<i64>, Error> {
-    let own = |tag: &String| tag.strip_prefix("marker_").unwrap_or(tag).parse::<i64>().ok();
+    let own = |tag: &String| tag.parse::<i64>().ok();
     let taken: Vec<i64> = tags.iter().filter_map(|tag| own(&tag.0)).collect();
     let mut free = (1..).filter(|number| !taken.contains(number));
     let mut numbers: Vec<i64> = Vec::new();
