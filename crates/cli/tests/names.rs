@@ -61,7 +61,7 @@ fn files_and_options_name() {
     ] {
         place.fail(&format!("mesh two.poly {options} -o m.msh"), 2, message);
     }
-    place.fail("--strict mesh two.poly -o m.ply", 1, "names of regions and boundaries are left out");
+    place.fail("-q --strict mesh two.poly -o m.ply", 1, "names of regions and boundaries are left out");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! their region as the property, and `SET1` with the nodes of each marker. Nodes are numbered as their points, from 1.
 //!
 //! A coordinate is the decimal number nearest to it of the most digits that 16 characters hold: 15 digits for positive numbers from 0.1 to 10^15,
-//! 14 for negative ones, 10 in any case. So it is right up to 5e-15, 5e-14 and 5e-10 of itself. A number of fewer digits is exact.
+//! 14 for negative ones, 10 for all others up to 10^300. So it is right up to 5e-15, 5e-14 and 5e-10 of itself. A number of fewer digits is exact.
 //!
 //! Names are comments that HyperMesh and those who read its files know: `$HMNAME PROP` for regions, `$HMNAME SET` for markers. Properties themselves
 //! are for the user, who knows the material.
@@ -120,8 +120,9 @@ impl Rounded {
 /// A number in a large field, and its value: of the most digits, as `.ddd` with zeros or as a mantissa and an exponent without a letter.
 fn field(x: f64) -> (String, f64) {
     let sign = if x < 0.0 { "-" } else { "" };
-    for digits in (1..=ALL_DIGITS).rev() {
-        let text = format!("{:.*e}", digits - 1, x.abs());
+    // The shortest digits that are read as this number, or else as many as fit.
+    let cut = (1..=ALL_DIGITS).rev().map(|digits| format!("{:.*e}", digits - 1, x.abs()));
+    for text in std::iter::once(format!("{:e}", x.abs())).chain(cut) {
         let Some((mantissa, exponent)) = text.split_once('e') else { break };
         let Ok(exponent) = exponent.parse::<i32>() else { break };
         let mantissa: String = mantissa.chars().filter(|&c| c != '.').collect();
@@ -129,7 +130,10 @@ fn field(x: f64) -> (String, f64) {
         let shortest = layouts(mantissa, exponent).min_by_key(String::len);
         if let Some(layout) = shortest.filter(|layout| sign.len() + layout.len() <= LARGE_FIELD) {
             let value: f64 = text.parse().unwrap_or(x.abs());
-            return (format!("{sign}{layout}"), value.copysign(x));
+            // The largest numbers are not rounded up to infinity.
+            if value.is_finite() {
+                return (format!("{sign}{layout}"), value.copysign(x));
+            }
         }
     }
     ("0.".to_owned(), 0.0)
@@ -184,7 +188,7 @@ mod tests {
             (1.0 / 3.0, ".333333333333333"),
             (-1.0 / 3.0, "-.33333333333333"),
             (5e-324, ".5-323"),
-            (f64::MAX, "1.797693135+308"),
+            (f64::MAX, ".179769313+309"),
         ] {
             assert_eq!(field(x).0, text, "{x:?}");
         }
