@@ -14,6 +14,7 @@ from pathlib import Path
 import judged
 import kept
 import shapes
+import solvers
 import written
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/reference/formats.md"
@@ -51,7 +52,7 @@ def main():
                     except (Exception, SystemExit):  # meshio ends the program. A judge that cannot read is a fault of the row.
                         faults.append(f"{row}:\n{traceback.format_exc()}")
     if not chosen:
-        for judge in (*kept.JUDGES, *shapes.JUDGES):
+        for judge in (*kept.JUDGES, *shapes.JUDGES, *solvers.JUDGES):
             try:
                 judge()
                 passed += 1

@@ -41,6 +41,25 @@ except ImportError:
 
 UTM = "EPSG:25832"
 
+# Kinds of elements of SU2.
+KINDS_OF_SU2 = {"line": 3, "triangle": 5, "tetra": 10}
+
+
+def write_elements(file, corners, kind, cells, markers=None):
+    """Writes Medit's format by meshio, and SU2's as its manual says: meshio 5.3.5 does not write that. Lines are in groups by marker."""
+    if file.suffix == ".mesh":
+        data = {"medit:ref": [np.zeros(len(cells), int) if markers is None else np.array(markers)]}
+        meshio.write(file, meshio.Mesh(corners, [(kind, cells)], cell_data=data), file_format="medit")
+        return
+    own = KINDS_OF_SU2[kind]
+    rows = [f"{own} {' '.join(map(str, row))}\n" for row in np.asarray(cells).tolist()]
+    text = f"NDIME= {corners.shape[1]}\nNELEM= {0 if markers else len(rows)}\n{'' if markers else ''.join(rows)}"
+    text += f"NPOIN= {len(corners)}\n" + "".join(" ".join(map(repr, row)) + "\n" for row in corners.tolist())
+    for number in sorted(set(markers or [])):
+        group = [row for row, marker in zip(rows, markers, strict=True) if marker == number]
+        text += f"MARKER_TAG= {number}\nMARKER_ELEMS= {len(group)}\n{''.join(group)}"
+    file.write_text(text)
+
 
 def frame(shapes, kind, **columns):
     """Features in a file that GDAL writes."""
@@ -103,6 +122,8 @@ def write_points(kind):
         meshio.write(file, meshio.Mesh(points, [("triangle", triangles)]))
     elif kind == "msh":
         meshio.write(file, meshio.Mesh(points, [("triangle", triangles)]), file_format="gmsh", binary=False)
+    elif kind in ("mesh", "su2"):
+        write_elements(file, points, "triangle", triangles)
     elif kind == "stl":
         pyvista.PolyData.from_regular_faces(points, triangles).save(file)
         return 0.05
@@ -239,6 +260,8 @@ def lines_of(kind):
         groups = {f"gmsh:{what}": [np.arange(len(segments)) // 4 + 1] for what in ("physical", "geometrical")}
         mesh = meshio.Mesh(places, [("line", segments)], cell_data=groups)
         meshio.write(file, mesh, file_format="gmsh22", binary=False)
+    elif kind in ("mesh", "su2"):
+        write_elements(file, places, "line", segments, [1] * 4 + [2] * 2)
     elif kind == "dxf":
         drawing = ezdxf.new("R2010")
         for chain in (ring, path):
@@ -266,7 +289,7 @@ def lines_of(kind):
     rows = [tuple(int(end) - first for end in row[1:3]) for row in text[count + 2 :] if len(row) >= 3]
     digits = 6 if kind == "gpx" else 9
     assert by_place(rows, np.round(corners, digits)) == by_place(segments, np.round(transformed, digits)), "other segments"
-    if kind == "msh":
+    if kind in ("msh", "mesh", "su2"):
         # Physical groups are markers, in whatever order segments are.
         assert sorted(row[3] for row in text[count + 2 :] if len(row) >= 4) == ["1"] * 4 + ["2"] * 2, "other markers"
 
@@ -354,6 +377,8 @@ def triangles_of(kind):
         meshio.write(file, meshio.Mesh(points, [("triangle", triangles)]), file_format="obj")
     elif kind == "msh":
         meshio.write(file, meshio.Mesh(points, [("triangle", triangles)]), file_format="gmsh", binary=False)
+    elif kind in ("mesh", "su2"):
+        write_elements(file, flat, "triangle", triangles)
     else:
         pyvista.PolyData.from_regular_faces(points, triangles).save(file)
     run("check", "flat.npy", file.name)
@@ -380,6 +405,8 @@ def tetrahedra_of(kind):
         meshio.write(FOLDER / "cells.node", cells, file_format="tetgen")
     elif kind == "msh":
         meshio.write(file, cells, file_format="gmsh", binary=False)
+    elif kind in ("mesh", "su2"):
+        write_elements(file, ball, "tetra", tetrahedra)
     else:
         pyvista.UnstructuredGrid({pyvista.CellType.TETRA: tetrahedra}, ball).save(file)
     run("check", "ball.npy", file.name, "--dim", 3)

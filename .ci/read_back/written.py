@@ -17,6 +17,7 @@ import pandas
 import pyvista
 import rasterio
 import shapely
+import solvers
 import trimesh
 from PIL import Image
 from world import FOLDER, area_of_squares, ball, expected, flat, normal, points, rings, run, squares, tetrahedra, triangles
@@ -137,6 +138,9 @@ def beside(name, kind):
 
 def triangles_of(kind):
     """Triangles of points with heights and without."""
+    if kind in solvers.KINDS:
+        solvers.triangles_of(kind)
+        return
     for source, heights in (("points", points[:, 2]), ("flat", np.zeros(len(points)))):
         name = f"mesh-{source}.{kind}"
         run("triangulate", f"{source}.npy", "-o", name, *beside(f"mesh-{source}", kind))
@@ -195,6 +199,9 @@ def tables_of_triangle(source, kind):
 
 def second_order_of(kind):
     """Triangles with a node on each edge, of a square: twice their number, and the area as it is."""
+    if kind in solvers.KINDS:
+        solvers.second_order_of(kind)
+        return
     (FOLDER / "square.poly").write_text("4 2 0 0\n0 0 0\n1 2 0\n2 2 2\n3 0 2\n4 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n0\n")
     run("mesh", "square.poly", "--max-area", 0.3, "--second-order", "-o", f"second.{kind}", *beside("second", kind))
     if kind in ("vtu", "msh", "inp"):
@@ -226,6 +233,9 @@ def second_order_of(kind):
 
 def tetrahedra_of(kind):
     """Tetrahedra, or the border of all of them, with their volume."""
+    if kind in solvers.KINDS:
+        solvers.tetrahedra_of(kind)
+        return
     name = f"solid.{kind}"
     run("triangulate", "ball.npy", "--dim", 3, "-o", name, *([] if kind in ("npy", "node") else ["-o", "solid.node"]))
     volume = np.abs(np.linalg.det(ball[tetrahedra][:, 1:] - ball[tetrahedra][:, :1])).sum() / 6

@@ -43,6 +43,8 @@ fn broken() -> Vec<(&'static str, Vec<u8>)> {
         ("gpx", "<gpx xmlns=\"http://www.topografix.com/GPX/1/1\"><wpt lat=\"47.5\" lon=\"q\"/></gpx>"),
         ("asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 q\n"),
         ("msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 q 0 0\n$EndNodes\n"),
+        ("mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n1\n0 q 0\nEnd\n"),
+        ("su2", "NDIME= 2\nNPOIN= 1\n0 q 0\n"),
         ("dxf", "0\nSECTION\n2\nENTITIES\n0\nPOINT\n10\n1.0\n20\nq\n0\nENDSEC\n0\nEOF\n"),
         ("gpkg", "SQLite format 3\0, and no pages"),
     ];
@@ -120,6 +122,8 @@ fn what_is_of_another_format_is_told() {
         ("gpkg", of("gpx"), "--from gpx"),
         ("vtu", of("vtk"), "--from vtk"),
         ("stl", of("off"), "--from off"),
+        ("msh", of("mesh"), "--from mesh"),
+        ("txt", of("su2"), "--from su2"),
         ("ply", of("csv"), "it does not begin as ply files do"),
         ("las", of("node"), "it does not begin as las files do"),
         ("tif", Vec::new(), "it does not begin as tif files do"),

@@ -23,6 +23,7 @@ mod lidar;
 mod limits;
 mod mesh;
 mod metamorphic;
+mod names;
 mod narrow;
 #[cfg(unix)]
 mod outputs;

@@ -240,13 +240,15 @@ fn many_formats_are_read_and_written() {
     }
     place.succeed(
         "-q mesh ring.wkt --min-angle 30 -o m.v.node -o m.v.edge -o m.neigh -o m.npy -o m.ply -o m.obj -o m.off -o m.stl -o m.vtu \
-         -o m.msh -o m.inp -o m.geojson -o m.wkt -o m.wkb -o m.svg -o m.png --color angle",
+         -o m.msh -o m.inp -o m.mesh -o m.su2 -o m.2dm -o m.14 -o m.bdf -o m.xdmf -o m.geojson -o m.wkt -o m.wkb -o m.svg -o m.png --color angle",
     );
     // Geomview's file has the points and the triangles.
     place.succeed("-q mesh m.off --refine m.off --min-angle 0 -o off.node -o off.ele");
     assert!((mesh(&place, "off").area() - 60.0).abs() < 1e-9);
     assert!(place.read("m.svg").contains("<svg"));
-    place.succeed("-q mesh ring.wkt --second-order -o six.node -o six.ele -o six.msh");
+    place.succeed(
+        "-q mesh ring.wkt --second-order -o six.node -o six.ele -o six.msh -o six.2dm -o six.bdf -o six.xdmf",
+    );
     assert_eq!(numbers(&place.read("six.ele"))[0][1], 6.0);
     place.fail("mesh ring.wkt --second-order -o six.ply", 2, "second order");
     place.fail("mesh ring.wkt -o m.las", 2, "las");

@@ -33,7 +33,7 @@ fn every_format_that_is_written_can_be_judged() {
     let place = Place::new();
     for points in ["csv", "xyz", "npy", "bin", "node", "ply", "obj", "geojson"] {
         place.succeed(&format!("generate uniform -n 300 --seed 3 -o p.{points}"));
-        for mesh in ["npy", "ele", "ply", "obj", "msh"] {
+        for mesh in ["npy", "ele", "ply", "obj", "msh", "mesh", "su2"] {
             place.succeed(&format!("-q triangulate p.{points} -o m.{mesh}"));
             let verdict = place.succeed(&format!("check p.{points} m.{mesh}"));
             assert!(verdict.starts_with("Delaunay, and the canonical"), "{points} {mesh}: {verdict}");
@@ -150,6 +150,8 @@ fn bad_points_are_named() {
         ("bad.geojson", "{\"type\":", "GeoJSON"),
         ("bad.node", "3 2 0 0\n0 1 2\n", "ends after 1 of 3 points"),
         ("bad.obj", "v 1 2\n", "line 1: z is missing"),
+        ("bad.mesh", "MeshVersionFormatted 2\nDimension 5\n", "line 2: the dimension is 2 or 3"),
+        ("bad.su2", "NDIME= 2\nNPOIN= 3\n0 0\n", "the file ends after 1 points"),
         ("bad.msh", "$MeshFormat\n4.1 1 8\n", "line 2: a binary file: save it as text"),
     ] {
         place.file(name, content);

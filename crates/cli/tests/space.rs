@@ -11,7 +11,7 @@ fn json(place: &Place, name: &str) -> Value {
 fn points_become_tetrahedra_in_every_format() {
     let place = Place::new();
     place.succeed("generate ball -n 500 --seed 2 -o ball.npy");
-    let formats = "-o t.npy -o t.ele -o t.neigh -o t.node -o t.edge -o t.vtu -o t.msh -o t.inp -o h.ply -o h.obj -o h.stl -o p.svg -o p.png";
+    let formats = "-o t.npy -o t.ele -o t.neigh -o t.node -o t.edge -o t.vtu -o t.msh -o t.inp -o t.mesh -o t.su2 -o t.bdf -o t.xdmf -o h.ply -o h.obj -o h.stl -o p.svg -o p.png";
     place.succeed(&format!("triangulate ball.npy --dim 3 {formats} --check --stats s.json -q"));
     let stats = json(&place, "s.json");
     let (cells, hull) =
@@ -32,7 +32,7 @@ fn points_become_tetrahedra_in_every_format() {
     );
     assert_eq!(text("h.obj").matches("f ").count() as u64, hull);
     assert_eq!(std::fs::metadata(place.path("h.stl")).expect("written").len(), 84 + 50 * hull);
-    for mesh in ["t.npy", "t.ele", "t.msh"] {
+    for mesh in ["t.npy", "t.ele", "t.msh", "t.mesh", "t.su2"] {
         let verdict = place.succeed(&format!("check ball.npy {mesh} --dim 3"));
         assert_eq!(verdict, format!("Delaunay, and the canonical triangulation: {cells} tetrahedra\n"));
     }

@@ -4,15 +4,21 @@
 //! Nodes that no cell uses are left out: nothing holds them, and systems of equations with them have no solution. So
 //! nodes are numbered with gaps: each has the index of its point, from 1. O(n log n).
 
-use std::cmp::Ordering;
+use delone::{Coordinates, Triangulation, VertexId};
 
-use delone::{Coordinates, Triangulation};
-
-use crate::Mesh;
-use crate::middles::Middles;
+use crate::error::listed;
+use crate::middles::{Middles, ordered};
+use crate::names::{Number, Rule};
+use crate::{Mesh, Names, Remark};
 
 /// The corners of the facet of a tetrahedron opposite to each corner, counter-clockwise seen from outside.
 pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+/// The sides of a triangle by the corner that a side is opposite to, as Abaqus numbers sides: from corner 1 to 2, 2 to 3, 3 to 1.
+const SIDES_OF_TRIANGLE: [usize; 3] = [2, 3, 1];
+
+/// The sides of a tetrahedron by the corner that a side is opposite to, as Abaqus numbers them.
+const SIDES_OF_TETRAHEDRON: [usize; 4] = [3, 4, 2, 1];
 
 /// Elements to be written, with nodes by the indices of their points, from 0.
 #[derive(Debug)]
@@ -26,20 +32,61 @@ pub(crate) struct Elements {
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) sides: Vec<Group>,
     pub(crate) cells: Vec<Group>,
+    /// The cell of each side, by its place among all, and the number of the side there, from 1.
+    owners: Vec<Owner>,
+    /// Whether the regions of cells are known.
+    pub(crate) has_regions: bool,
+}
+
+/// A cell and one of its sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Owner {
+    /// The number of the cell in a file that counts from 1, in the order of the groups.
+    pub(crate) cell: usize,
+    /// The number of the side as Abaqus has it.
+    pub(crate) side: usize,
 }
 
 /// Elements that have a number in common. It is the tag if it can be one: a positive integer of 32 bits with sign. Others
-/// have the least tag that is free. The name has the number in any case.
+/// have the least tag that is free. The label has the number in any case.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Group {
     pub(crate) tag: u32,
-    pub(crate) name: String,
+    /// The number, if it is a whole one of 32 bits.
+    whole: Option<i32>,
+    number: f64,
+    /// The kind and the number, which is the name of what has no other.
+    label: String,
+    /// The name that was given.
+    given: Option<String>,
     /// How many nodes an element has.
     width: usize,
     nodes: Vec<usize>,
+    /// The elements by their places among all.
+    members: Vec<usize>,
 }
 
 impl Group {
+    /// The name that was given, or else the kind and the number.
+    pub(crate) fn name(&self) -> &str {
+        self.given.as_deref().unwrap_or(&self.label)
+    }
+
+    /// Whether it has a name of its own.
+    pub(crate) fn is_named(&self) -> bool {
+        self.given.is_some()
+    }
+
+    /// The number for formats whose numbers may be any whole ones: the tag where it is none.
+    pub(crate) fn reference(&self) -> i64 {
+        self.whole.map_or(self.tag.into(), i64::from)
+    }
+
+    /// The number that the elements have in common.
+    pub(crate) fn number(&self) -> f64 {
+        self.number
+    }
+
     /// The nodes of each element.
     pub(crate) fn rows(&self) -> impl ExactSizeIterator<Item = &[usize]> {
         self.nodes.chunks_exact(self.width)
@@ -66,33 +113,93 @@ impl Elements {
         };
         let mut sides: Vec<Vec<usize>> = Vec::new();
         let mut markers: Vec<i64> = Vec::new();
+        let mut owners: Vec<(usize, usize)> = Vec::new();
         if dimension == 3 {
-            for s in mesh.simplices() {
+            for (cell, s) in mesh.simplices().enumerate() {
                 let corners = mesh.triangulation.corners(s);
                 for k in (0..4).filter(|&k| mesh.across(s, k).is_none()) {
                     sides.push(FACETS[k].map(|i| corners.as_ref()[i].index()).to_vec());
+                    owners.push((cell, SIDES_OF_TETRAHEDRON[k]));
                 }
             }
             markers = vec![1; sides.len()];
         } else if !cells.is_empty() {
+            let mut ends_of = Vec::new();
             for (ends, marker) in mesh.sides() {
                 let middle = middles.map(|middles| middles.of_edge(ends));
                 sides.push(ends.iter().map(|v| v.index()).chain(middle).collect());
                 markers.push(marker);
+                ends_of.push(ends);
             }
+            owners = owners_of(mesh, &ends_of, &regions);
         }
         let mut positions: Vec<[f64; 3]> = mesh.positions().collect();
         if let Some(middles) = middles {
             positions = middles.points(&positions);
         }
+        let name_of_side = |marker| mesh.names.and_then(|names: &Names| names.boundary(marker));
+        let name_of_cell = |region| mesh.names.and_then(|names: &Names| names.region(region));
+        let cells = grouped("region", &regions, &cells, name_of_cell);
+        let mut number_of = vec![0; regions.len()];
+        let in_order = cells.iter().flat_map(|group| &group.members);
+        in_order.zip(1..).for_each(|(&cell, number)| number_of[cell] = number);
         Self {
             dimension,
             second_order: mesh.second_order,
             has_heights: dimension == 2 && mesh.heights.is_some(),
             positions,
-            sides: grouped("marker", &markers, &sides),
-            cells: grouped("region", &regions, &cells),
+            sides: grouped("marker", &markers, &sides, name_of_side),
+            cells,
+            owners: owners.into_iter().map(|(cell, side)| Owner { cell: number_of[cell], side }).collect(),
+            has_regions: mesh.regions.is_some(),
         }
+    }
+
+    /// The cell of each side of a group: of two, the one in the region of the lesser number, or else the one on the left of the
+    /// side where it is walked towards larger x, then y.
+    pub(crate) fn owners(&self, group: &Group) -> impl Iterator<Item = Owner> {
+        group.members.iter().map(|&side| self.owners[side])
+    }
+
+    /// The names of the sides and of the cells as a format permits them, and what is changed.
+    pub(crate) fn names(&self, rule: Rule) -> Permitted {
+        let mut changed = Vec::new();
+        let sides = rule.of(self.sides.iter().map(Group::name), &mut changed);
+        let cells = rule.of(self.cells.iter().map(Group::name), &mut changed);
+        Permitted { sides, cells, changed }
+    }
+
+    /// A remark for formats whose numbers are any whole ones, and that have no names.
+    pub(crate) fn renumbered(&self) -> Remark {
+        changed(self.sides.iter().chain(&self.cells), |group| {
+            (group.whole.is_none()).then(|| group.reference())
+        })
+    }
+
+    /// A remark for those that have sides alone.
+    pub(crate) fn renumbered_sides(&self) -> Remark {
+        changed(self.sides.iter(), |group| group.whole.is_none().then(|| group.reference()))
+    }
+
+    /// A remark for formats whose numbers are positive.
+    pub(crate) fn retagged(&self) -> Remark {
+        changed(self.sides.iter().chain(&self.cells), |group| {
+            (group.whole.and_then(|whole| whole.try_into().ok()) != Some(group.tag)).then(|| group.tag.into())
+        })
+    }
+
+    /// A remark for formats whose points of the plane have no third coordinate.
+    pub(crate) fn without_heights(&self) -> Remark {
+        self.has_heights.then(|| "heights are left out".to_owned())
+    }
+
+    /// The nodes that cells use, and the number of each node among them, from 0.
+    pub(crate) fn dense(&self) -> (Vec<usize>, Vec<usize>) {
+        let is_used = self.is_used();
+        let used: Vec<usize> = (0..is_used.len()).filter(|&node| is_used[node]).collect();
+        let mut number_of = vec![0; is_used.len()];
+        used.iter().enumerate().for_each(|(number, &node)| number_of[node] = number);
+        (used, number_of)
     }
 
     /// How many cells there are.
@@ -108,49 +215,79 @@ impl Elements {
     }
 }
 
-/// The numbers that elements share.
-trait Number: Copy {
-    fn order(&self, other: &Self) -> Ordering;
-    /// The number in a name: digits, letters and hyphens alone, because other characters mean something in some formats.
-    fn label(self) -> String;
-    /// The number as a tag.
-    fn tag(self) -> Option<u32>;
-}
-
-impl Number for i64 {
-    fn order(&self, other: &Self) -> Ordering {
-        self.cmp(other)
+impl<T: Triangulation> Mesh<'_, T> {
+    /// The markers of the sides, each once, by increasing number: of the border, which is 1 where nothing else is said, and of the
+    /// constraints.
+    pub fn side_markers(&self) -> Vec<i64> {
+        let mut markers: Vec<i64> =
+            if T::Point::COUNT == 2 { self.sides().map(|side| side.1).collect() } else { vec![1] };
+        markers.sort_unstable();
+        markers.dedup();
+        markers
     }
 
-    fn label(self) -> String {
-        self.to_string()
-    }
-
-    fn tag(self) -> Option<u32> {
-        u32::try_from(self).ok().filter(|tag| (1..=i32::MAX as u32).contains(tag))
+    /// The regions of the simplices, each once, by increasing number; 0 where there are none.
+    pub fn region_numbers(&self) -> Vec<f64> {
+        let mut regions: Vec<f64> = self.region_values().map_or(vec![0.0], Iterator::collect);
+        regions.sort_by(Number::order);
+        regions.dedup_by(|one, other| one.order(other).is_eq());
+        regions
     }
 }
 
-impl Number for f64 {
-    /// There is one zero, and one number that is none.
-    fn order(&self, other: &Self) -> Ordering {
-        self.partial_cmp(other).unwrap_or_else(|| self.is_nan().cmp(&other.is_nan()))
-    }
+/// Names of groups as a format permits them.
+pub(crate) struct Permitted {
+    pub(crate) sides: Vec<String>,
+    pub(crate) cells: Vec<String>,
+    pub(crate) changed: Vec<String>,
+}
 
-    fn label(self) -> String {
-        // Zero has no sign here.
-        let digits = format!("{:?}", self + 0.0);
-        digits.strip_suffix(".0").unwrap_or(&digits).replace('.', "p")
+/// The cell of each side, by its place, and the number of the side there.
+fn owners_of<T: Triangulation>(
+    mesh: &Mesh<T>,
+    sides: &[[VertexId; 2]],
+    regions: &[f64],
+) -> Vec<(usize, usize)> {
+    let mut places: Vec<([VertexId; 2], usize)> =
+        sides.iter().enumerate().map(|(side, &ends)| (ordered(ends), side)).collect();
+    places.sort_unstable();
+    let mut owners: Vec<Option<(usize, usize)>> = vec![None; sides.len()];
+    for (cell, s) in mesh.simplices().enumerate() {
+        let corners = mesh.triangulation.corners(s);
+        for (k, &number) in SIDES_OF_TRIANGLE.iter().enumerate() {
+            let ends = [1, 2].map(|step| corners.as_ref()[(k + step) % 3]);
+            let Ok(at) = places.binary_search_by_key(&ordered(ends), |place| place.0) else { continue };
+            let owner = &mut owners[places[at].1];
+            let [from, to] = ends.map(|v| mesh.point(v));
+            // Triangles are counter-clockwise: this one is on the left of its sides.
+            let is_left = from.as_ref() < to.as_ref();
+            let goes_first = |&(other, _): &(usize, usize)| match regions[cell].order(&regions[other]) {
+                order if order.is_eq() => is_left,
+                order => order.is_lt(),
+            };
+            if owner.as_ref().is_none_or(goes_first) {
+                *owner = Some((cell, number));
+            }
+        }
     }
+    owners.into_iter().map(Option::unwrap_or_default).collect()
+}
 
-    fn tag(self) -> Option<u32> {
-        let is_tag = self.fract() == 0.0 && (1.0..=f64::from(i32::MAX)).contains(&self);
-        is_tag.then_some(self as u32)
-    }
+/// A remark on groups whose numbers a format does not permit, and the numbers that they have there.
+fn changed<'a>(groups: impl Iterator<Item = &'a Group>, number: impl Fn(&Group) -> Option<i64>) -> Remark {
+    let changed: Vec<String> =
+        groups.filter_map(|group| Some(format!("{} is {}", group.label, number(group)?))).collect();
+    let list = listed(changed.iter().map(String::as_str));
+    (!changed.is_empty()).then(|| format!("numbers that it does not permit are changed: {list}"))
 }
 
 /// Groups by increasing number; elements keep their order in each.
-fn grouped<N: Number>(kind: &str, numbers: &[N], elements: &[Vec<usize>]) -> Vec<Group> {
+fn grouped<'a, N: Number>(
+    kind: &str,
+    numbers: &[N],
+    elements: &[Vec<usize>],
+    given: impl Fn(N) -> Option<&'a str>,
+) -> Vec<Group> {
     let mut order: Vec<usize> = (0..elements.len()).collect();
     order.sort_by(|&i, &j| numbers[i].order(&numbers[j]));
     let parts: Vec<&[usize]> = order.chunk_by(|&i, &j| numbers[i].order(&numbers[j]).is_eq()).collect();
@@ -161,9 +298,13 @@ fn grouped<N: Number>(kind: &str, numbers: &[N], elements: &[Vec<usize>]) -> Vec
         let number = numbers[part[0]];
         Group {
             tag: number.tag().or_else(|| free.next()).unwrap_or_default(),
-            name: format!("{kind}_{}", number.label()),
+            whole: number.whole(),
+            number: number.value(),
+            label: format!("{kind}_{}", number.label()),
+            given: given(number).map(str::to_owned),
             width: elements[part[0]].len(),
             nodes: part.iter().flat_map(|&i| &elements[i]).copied().collect(),
+            members: part.to_vec(),
         }
     };
     parts.into_iter().map(group).collect()
@@ -177,8 +318,11 @@ mod tests {
     fn numbers_are_tags_where_they_can_be() {
         let elements: Vec<Vec<usize>> = (0..9).map(|i| vec![i]).collect();
         let of = |numbers: &[f64]| -> Vec<(u32, String, usize)> {
-            let groups = grouped("region", numbers, &elements[..numbers.len()]);
-            groups.into_iter().map(|group| (group.tag, group.name.clone(), group.nodes().len())).collect()
+            let groups = grouped("region", numbers, &elements[..numbers.len()], |_| None);
+            groups
+                .into_iter()
+                .map(|group| (group.tag, group.name().to_owned(), group.nodes().len()))
+                .collect()
         };
         let expected = [
             (2, "region_-2p5", 1),
@@ -192,8 +336,8 @@ mod tests {
         let numbers = [f64::NAN, 3.0, -0.0, 1e300, 1.0, 0.0, -2.5, -f64::NAN, 2_147_483_647.0];
         assert_eq!(of(&numbers), expected.map(|(tag, name, count)| (tag, name.to_owned(), count)));
         assert!(of(&[]).is_empty());
-        let markers = grouped("marker", &[i64::MAX, -8, 0, 1], &elements[..4]);
-        let tags: Vec<(u32, &str)> = markers.iter().map(|group| (group.tag, &group.name[..])).collect();
+        let markers = grouped("marker", &[i64::MAX, -8, 0, 1], &elements[..4], |_| None);
+        let tags: Vec<(u32, &str)> = markers.iter().map(|group| (group.tag, group.name())).collect();
         assert_eq!(
             tags,
             [(2, "marker_-8"), (3, "marker_0"), (1, "marker_1"), (4, "marker_9223372036854775807")]

@@ -41,6 +41,28 @@ pub enum Error {
         /// The system of this file.
         theirs: String,
     },
+    /// A region or a boundary has two names.
+    #[error("{what} {number} is named {:?} and {:?}", excerpt(&names[0]), excerpt(&names[1]))]
+    TwoNames {
+        /// Region or boundary.
+        what: &'static str,
+        /// Its number.
+        number: String,
+        /// The names.
+        names: [String; 2],
+    },
+    /// Two regions, or two boundaries, have one name.
+    #[error(
+        "the name {:?} is that of {what} {} and of {what} {}", excerpt(name), numbers[0], numbers[1]
+    )]
+    SharedName {
+        /// Region or boundary.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// Their numbers.
+        numbers: [String; 2],
+    },
     /// The points of a file have no dimension of this name.
     #[error("its points have no {}, but {}", clipped(name), clipped(names))]
     NoDimension {
@@ -164,6 +186,8 @@ impl Error {
                 "check that the file is what its extension says, or name the format with --from"
             }
             Self::Systems { .. } => "transform one of them first",
+            Self::TwoNames { .. } => "give it one of them with --region or --boundary",
+            Self::SharedName { .. } => "give one of them another name, or both the same number",
             Self::NoDimension { .. } => "name one of these, with extra bytes as delone info lists them",
             Self::DataType(_) => "convert it with pdal translate ept.json out.copc.laz",
             Self::Compression(_) => "convert it with gdal_translate -co COMPRESS=DEFLATE",

@@ -2,6 +2,7 @@
 
 mod beginning;
 mod contents;
+mod shared;
 mod table;
 
 use std::fmt;
@@ -112,6 +113,18 @@ pub enum Format {
     Msh,
     /// Meshes of Abaqus.
     Inp,
+    /// Meshes of Medit, which FreeFEM and MMG read.
+    Medit,
+    /// Meshes of SU2.
+    Su2,
+    /// Meshes of SMS.
+    Sms,
+    /// Grids of ADCIRC.
+    Adcirc,
+    /// Bulk data of Nastran.
+    Nastran,
+    /// XDMF.
+    Xdmf,
     /// Vector pictures.
     Svg,
     /// Pixel pictures.
@@ -200,7 +213,13 @@ impl Format {
             | Self::Vtu
             | Self::Json
             | Self::Msh
-            | Self::Inp => Said::Not,
+            | Self::Inp
+            | Self::Medit
+            | Self::Su2
+            | Self::Sms
+            | Self::Adcirc
+            | Self::Nastran
+            | Self::Xdmf => Said::Not,
             // There are no coordinates in it, or nobody looks for their meaning.
             _ => Said::NeedNot,
         }
@@ -240,6 +259,20 @@ impl Format {
             Contents::Lines => self == Self::GeoPackage,
             _ => false,
         }
+    }
+
+    /// Whether files of this format have names of regions or boundaries ([`crate::Names`]).
+    ///
+    /// ```
+    /// use delone_io::Format;
+    ///
+    /// assert!(Format::Msh.keeps_names() && !Format::Vtu.keeps_names());
+    /// ```
+    pub fn keeps_names(self) -> bool {
+        matches!(
+            self,
+            Self::Poly | Self::Msh | Self::Inp | Self::Su2 | Self::Sms | Self::Adcirc | Self::Nastran
+        )
     }
 
     /// The extensions of the files beside one of this format that are read with it.

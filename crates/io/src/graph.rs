@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use delone::RegionSeed2;
 
-use crate::{Cloud, Crs, Error};
+use crate::{Cloud, Crs, Error, Names};
 
 /// Points with segments, and what a file says of them: the input of constrained triangulations.
 ///
@@ -30,6 +30,8 @@ pub struct Graph {
     pub holes: Vec<[f64; 2]>,
     /// Points in areas that have an attribute and perhaps a largest area of their triangles.
     pub regions: Vec<RegionSeed2>,
+    /// Names of regions and boundaries, where the file has them.
+    pub names: Names,
     /// Which ring of which polygon segments are, where the file has polygons.
     pub rings: Vec<GraphRing>,
 }
@@ -85,12 +87,13 @@ impl Graph {
     }
 
     /// Makes one graph of two files: points, segments, rings and seeds of the other follow ours. Markers that a file does
-    /// not have are 0; attributes stay if both have as many. Points that are in both files are not joined here: the
+    /// not have are 0, names must not contradict; attributes stay if both have as many. Points that are in both files are not joined here: the
     /// triangulation finds equal points.
     pub fn join(&mut self, mut other: Self) -> Result<(), Error> {
         let (points, segments) = (self.cloud.xy.len(), self.segments.len());
         let (more_points, more_segments) = (other.cloud.xy.len(), other.segments.len());
         let polygons = self.rings.iter().map(|ring| ring.polygon + 1).max().unwrap_or(0);
+        self.names.join(&other.names)?;
         self.cloud.join(other.cloud)?;
         self.segments.extend(other.segments.iter().map(|ends| ends.map(|i| i + points)));
         self.is_border.append(&mut other.is_border);

@@ -9,6 +9,7 @@
 struct Readme;
 
 mod answers;
+mod border;
 mod cell;
 mod chunks;
 mod cloud;
@@ -30,6 +31,7 @@ mod iteration;
 mod limit;
 mod mesh;
 mod middles;
+mod names;
 mod options;
 mod output;
 mod patches;
@@ -38,6 +40,7 @@ pub mod picture;
 mod polyhedra;
 mod raster;
 mod solid;
+mod strings;
 mod xml;
 
 pub use answers::{Answers, Found, write_answers};
@@ -65,6 +68,7 @@ pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
 pub use limit::limit_output;
 pub use mesh::{Constraints, Drawable, Mesh, Rows, write_mesh};
+pub use names::Names;
 pub use options::ReadOptions;
 pub use output::{
     Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
@@ -274,10 +278,12 @@ pub fn read_numbers(source: Box<dyn Source>, format: Format) -> Result<Vec<f64>,
     format.readers().numbers.ok_or_else(|| format.without(Contents::Numbers, Direction::Read))?(source)
 }
 
-/// Reads the attributes of the triangles of an `.ele` file, a row each; other formats have none.
+/// Reads the attributes of the triangles of an `.ele` file, or their groups in files of Gmsh and Medit, a row each; other formats have none.
 pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Result<Attributes, Error> {
     match format {
         Format::Ele => Ok(formats::triangle::read_ele::<3>(source, true)?.1),
+        Format::Msh => formats::msh::read_groups(source),
+        Format::Medit => Ok(formats::medit::read(source)?.regions()),
         _ => Ok(Attributes::default()),
     }
 }

@@ -7,11 +7,13 @@ use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::vector::Layer;
 use crate::formats::{
-    geojson, geopackage, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt,
+    adcirc, geojson, geopackage, inp, medit, msh, nastran, npy, obj, off, ply, poly, sms, stl, su2, triangle,
+    vector, vtu, wkb, wkt, xdmf,
 };
 use crate::middles::{Middles, ordered};
 use crate::{
-    Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Table, Trim, picture, write_solid,
+    Attributes, Contents, Crs, Direction, Error, Format, Names, Remark, Shape, Table, Trim, picture,
+    write_solid,
 };
 
 /// A triangulation to be written, with what lies beside it.
@@ -45,6 +47,8 @@ pub struct Mesh<'a, T: Triangulation> {
     pub constraints: Option<&'a Constraints<'a>>,
     /// The region of each simplex, by its index.
     pub regions: Option<&'a [f64]>,
+    /// Names of regions, and of boundaries by their markers.
+    pub names: Option<&'a Names>,
     /// The attributes of the polygons that triangles are in, which GeoJSON, FlatGeobuf and GeoPackage have.
     pub features: Option<Rows<'a>>,
     /// Values of the points by id, which `.node` and `.poly` files have instead of heights.
@@ -121,6 +125,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             trim: None,
             constraints: None,
             regions: None,
+            names: None,
             features: None,
             attributes: None,
             point_markers: None,
@@ -356,6 +361,8 @@ impl Drawable for [f64; 2] {
                 geopackage::write(out, layers)?;
             }
             Format::Poly => poly::write(out, mesh)?,
+            Format::Sms => return Ok(sms::write(out, mesh)?),
+            Format::Adcirc => return Ok(adcirc::write(out, mesh)?),
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,
             Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
@@ -409,8 +416,12 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
         Format::Neigh => triangle::write_neigh(out, mesh)?,
         Format::Edge => triangle::write_edge(out, mesh)?,
         Format::Vtu => return Ok(vtu::write_mesh(out, mesh)?),
-        Format::Msh => msh::write(out, mesh)?,
-        Format::Inp => inp::write(out, mesh)?,
+        Format::Msh => return Ok(msh::write(out, mesh)?),
+        Format::Inp => return Ok(inp::write(out, mesh)?),
+        Format::Medit => return Ok(medit::write(out, mesh)?),
+        Format::Su2 => return Ok(su2::write(out, mesh)?),
+        Format::Nastran => return Ok(nastran::write(out, mesh)?),
+        Format::Xdmf => return Ok(xdmf::write(out, mesh)?),
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }
     Ok(None)

@@ -147,10 +147,11 @@ fn lines_of_gmsh() {
         $Elements\n3 3 1 3\n1 1 1 1\n1 1 2\n1 2 1 1\n2 2 3\n1 3 1 1\n3 3 1\n$EndElements\n$NodeData\n0\n$EndNodeData\n";
     let graph = good(Format::Msh, groups);
     assert_eq!((graph.segments.len(), graph.markers), (3, Some(vec![7, 0, 9])));
-    let losses = [
-        "names of physical groups are left out: 7 \"inlet\", 9 \"wall\"",
-        "sections are left out: NodeData",
-        "1 curves are in several physical groups: the first is taken",
-    ];
+    let losses =
+        ["sections are left out: NodeData", "1 curves are in several physical groups: the first is taken"];
     assert_eq!(graph.cloud.losses, losses);
+    assert_eq!(graph.names.boundaries(), [(7, "inlet".to_owned()), (9, "wall".to_owned())]);
+    // Points have no names.
+    let cloud = read_points(source(groups), Format::Msh, &ReadOptions::default()).expect("points");
+    assert_eq!(cloud.losses[0], "names of physical groups are left out: 7 \"inlet\", 9 \"wall\"");
 }

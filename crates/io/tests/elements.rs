@@ -20,6 +20,8 @@ struct Seen {
     elements: Vec<(String, String, Vec<usize>)>,
     /// Nodes by the name of their set.
     sets: BTreeMap<String, BTreeSet<usize>>,
+    /// Elements with the numbers of their sides, by the name of their surface.
+    surfaces: BTreeMap<String, Vec<(usize, usize)>>,
 }
 
 /// The words of a section.
@@ -148,6 +150,11 @@ fn abaqus(text: &str) -> Seen {
                 let set = seen.sets.entry(value("NSET=")).or_default();
                 assert!(words.iter().map(index).all(|node| set.insert(node)));
             }
+            "SURFACE" => {
+                assert_eq!(keyword[1], "TYPE=ELEMENT");
+                let side = words[1].strip_prefix('S').expect("a side").parse().expect("its number");
+                seen.surfaces.entry(value("NAME=")).or_default().push((index(&words[0]), side));
+            }
             other => panic!("{other} is no keyword"),
         }
     }
@@ -270,6 +277,7 @@ fn abaqus_sees_triangles_and_sets() {
             let seen = abaqus(&scene.written(Format::Inp, second_order));
             judge_triangles(&scene, &seen, if second_order { "CPE6" } else { "CPS3" }, second_order);
             let mut sets: BTreeMap<String, BTreeSet<usize>> = BTreeMap::new();
+            let mut surfaces: BTreeMap<String, Vec<[usize; 2]>> = BTreeMap::new();
             let middles: BTreeMap<[usize; 2], usize> = seen
                 .elements
                 .iter()
@@ -283,9 +291,20 @@ fn abaqus_sees_triangles_and_sets() {
                 if is_side {
                     let set = sets.entry(format!("marker_{marker}")).or_default();
                     set.extend(ends.iter().chain(middles.get(&ends)));
+                    surfaces.entry(format!("marker_{marker}")).or_default().push(ends);
                 }
             }
             assert_eq!(seen.sets, sets, "{}", scene.name);
+            let ends = |&(element, side): &(usize, usize)| {
+                let nodes = &seen.elements[element - 1].2;
+                sorted([nodes[side - 1], nodes[side % 3]])
+            };
+            let mut met: BTreeMap<String, Vec<[usize; 2]>> = BTreeMap::new();
+            for (name, sides) in &seen.surfaces {
+                met.insert(name.clone(), sides.iter().map(ends).collect());
+            }
+            met.values_mut().chain(surfaces.values_mut()).for_each(|sides| sides.sort_unstable());
+            assert_eq!(met, surfaces, "{}", scene.name);
         }
     }
     // With heights they are shells.
@@ -294,7 +313,7 @@ fn abaqus_sees_triangles_and_sets() {
     for (second_order, kind) in [(false, "S3"), (true, "STRI65")] {
         let mesh = Mesh { heights: Some(&[1.0, 2.0, 4.0]), second_order, ..Mesh::new(&d, &points) };
         let seen = abaqus(&String::from_utf8(written(Format::Inp, &mesh)).expect("text"));
-        assert_eq!(seen.elements[0].0, kind);
+        assert_eq!((&seen.elements[0].0[..], seen.surfaces.len()), (kind, 0));
         let heights: Vec<f64> = seen.nodes.values().map(|p| p[2]).collect();
         assert_eq!(heights, [1.0, 2.0, 4.0, 1.5, 2.5, 3.0][..if second_order { 6 } else { 3 }]);
     }
@@ -333,6 +352,21 @@ fn tetrahedra_have_a_border() {
     let inp = abaqus(&String::from_utf8(written(Format::Inp, &mesh)).expect("text"));
     assert!(inp.elements.iter().all(|element| element.0 == "C3D4") && inp.elements.len() == read.len());
     assert_eq!(inp.nodes, seen.nodes);
+    // The manual's sides of a tetrahedron: nodes 1 2 3, 1 4 2, 2 4 3 and 3 4 1.
+    let sides = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+    let least = |mut nodes: Vec<usize>| {
+        nodes.sort_unstable();
+        nodes
+    };
+    let facet = |&(element, side): &(usize, usize)| {
+        let nodes: &Vec<usize> = &inp.elements[element - 1].2;
+        least(sides[side - 1].map(|i: usize| nodes[i]).to_vec())
+    };
+    let mut surface: Vec<Vec<usize>> = inp.surfaces["marker_1"].iter().map(facet).collect();
+    let mut border: Vec<Vec<usize>> = triangles.iter().map(|nodes| least((*nodes).clone())).collect();
+    surface.sort_unstable();
+    border.sort_unstable();
+    assert_eq!(surface, border);
 }
 
 #[test]
@@ -354,7 +388,7 @@ fn second_order_is_refused_before_anything_is_written() {
             Err(other) => panic!("{format}: {other}"),
         }
     }
-    assert_eq!(refused, 10 + usize::from(cfg!(feature = "geopackage")));
+    assert_eq!(refused, 13 + usize::from(cfg!(feature = "geopackage")));
     assert!(matches!(
         <[f64; 2]>::check_second_order(Format::Las),
         Err(Error::Unsupported { format: Format::Las, .. })

@@ -128,10 +128,25 @@ fn paraview_sees_six_nodes() {
     let ends: Vec<u64> = words(array()).into_iter().map(u64::from_le_bytes).collect();
     let kinds = array();
     let triangles = scene.triangles().len();
-    assert!(kinds == vec![22; triangles] && ends.iter().copied().eq((1..=triangles as u64).map(|i| 6 * i)));
+    let asked: Vec<_> = scene.edge_markers().into_iter().filter(|edge| edge.1.1).collect();
+    // Sides with their middles follow the triangles.
+    assert_eq!(kinds, [vec![22; triangles], vec![21; asked.len()]].concat());
+    let widths = std::iter::repeat_n(6, triangles).chain(std::iter::repeat_n(3, asked.len()));
+    assert!(ends.iter().copied().eq(widths.scan(0, |end, width| {
+        *end += width;
+        Some(*end)
+    })));
+    assert_eq!(array().len(), 8 * ends.len(), "a region for each");
+    let markers: Vec<i64> = words(array()).into_iter().map(i64::from_le_bytes).collect();
+    assert!(markers[..triangles].iter().all(|&marker| marker == 0));
+    let (nodes, lines) = nodes.split_at(6 * triangles);
+    let mut met: Vec<_> =
+        lines.chunks(3).map(|row| sorted([row[0], row[1]])).zip(markers[triangles..].to_vec()).collect();
+    met.sort_unstable();
+    assert_eq!(met, asked.iter().map(|&(ends, (marker, _))| (ends, marker)).collect::<Vec<_>>());
     assert_eq!(values.len(), scene.points.len() + scene.edge_markers().len());
     let text = String::from_utf8_lossy(&bytes[..at]).into_owned();
-    assert!(text.contains(&format!("NumberOfPoints=\"{}\" NumberOfCells=\"{triangles}\"", values.len())));
+    assert!(text.contains(&format!("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", values.len(), ends.len())));
     let position = |i: usize| &positions[3 * i..3 * i + 3];
     for row in nodes.chunks(6) {
         for (node, i, j) in [(3, 0, 1), (4, 1, 2), (5, 2, 0)] {

@@ -116,6 +116,15 @@ pub(crate) struct MeshArgs {
     /// more programs know it].
     #[arg(long, value_name = "TYPE", value_parser = element)]
     pub(crate) element: Option<String>,
+    /// The name of the boundary that has a marker, as in 2=inlet; may be repeated. It goes before a name that a file has.
+    #[arg(long, value_name = "MARKER=NAME", value_parser = named::<i64>, allow_hyphen_values = true, help_heading = "Names")]
+    pub(crate) boundary: Vec<(i64, String)>,
+    /// The name of the region that has a number, as in 1=steel; may be repeated.
+    #[arg(long, value_name = "NUMBER=NAME", value_parser = named::<f64>, allow_hyphen_values = true, help_heading = "Names")]
+    pub(crate) region: Vec<(f64, String)>,
+    /// The attribute that is the name of features: of lines as boundaries, of polygons as regions [default: name, where it is a text].
+    #[arg(long, value_name = "COLUMN", help_heading = "Names")]
+    pub(crate) names: Option<String>,
     /// Leave out vertices that no triangle uses: the others are numbered anew, in their order.
     #[arg(long)]
     pub(crate) drop_unused: bool,
@@ -151,6 +160,17 @@ pub(crate) enum ColorName {
     Angle,
 }
 
+/// Parses a number and a name.
+fn named<N: std::str::FromStr>(text: &str) -> Result<(N, String), String> {
+    let (number, name) = text.split_once('=').ok_or("it is no number, = and a name, such as 2=inlet")?;
+    let number = number.trim().parse().map_err(|_| format!("{number:?} is no number of that kind"))?;
+    let name = name.trim();
+    if name.is_empty() || name.contains(char::is_control) {
+        return Err("a name has at least one letter, and no characters that cannot be seen".to_owned());
+    }
+    Ok((number, name.to_owned()))
+}
+
 /// Parses a type of elements, as Abaqus has them.
 fn element(text: &str) -> Result<String, String> {
     /// Letters and digits of the longest names.
@@ -172,10 +192,12 @@ fn mesh_help() -> String {
   delone mesh coast.1.node --refine coast.1.ele --areas coast.1.area -o coast.2.node -o coast.2.ele
   delone mesh plan.poly --triangle pq30a.1
   delone mesh plate.geojson --second-order --element CPS6 -o plate.inp
+  delone mesh channel.poly --boundary 2=inlet --boundary 3=outlet --region 1=water -o channel.msh -o channel.su2
 
 New vertices follow those of the input, in the order in which they came. What is inside is written, as --fill says; vertices
 outside stay, without triangles, unless --drop-unused. Heights and attributes of new vertices are linear between those of the
-input. Triangles that could not be refined are counted in a warning, with the reasons.
+input. Names of regions and boundaries come from these options, from groups of .msh files, from comments of .poly files
+(# boundary 2 inlet, # region 1 steel), and from features. Triangles that could not be refined are counted in a warning, with the reasons.
 
 Triangle's switches:
 {}

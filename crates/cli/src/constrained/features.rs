@@ -29,7 +29,7 @@ pub(crate) fn of_lines(c: &Constrained2, graph: &Graph) -> Option<Vec<Option<usi
 }
 
 /// The row of each segment that is no side of a polygon.
-fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
+pub(crate) fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
     let row = |&[start, _]: &[usize; 2]| graph.cloud.features.row(start);
     let mut rows: Vec<Option<usize>> = graph.segments.iter().map(row).collect();
     graph.rings.iter().for_each(|ring| rows[ring.segments.clone()].fill(None));

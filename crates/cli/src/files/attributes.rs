@@ -13,6 +13,8 @@ struct Known {
     with: Option<Contents>,
     /// The names of all that were read.
     names: Vec<String>,
+    /// The one that is the name of regions and boundaries.
+    naming: Option<String>,
     /// Some were asked for by name.
     are_asked: bool,
     have_infinities: bool,
@@ -33,6 +35,7 @@ pub(crate) struct Unshown {
 static KNOWN: Mutex<Known> = Mutex::new(Known {
     with: None,
     names: Vec::new(),
+    naming: None,
     are_asked: false,
     have_infinities: false,
     unshown: Unshown { lines: None, hidden_polygons: false, points: false },
@@ -57,6 +60,11 @@ pub(crate) fn are_kept() -> bool {
 /// The outputs of the command are triangles; they are said to be without attributes of lines and points, if these have any.
 pub(crate) fn heed_unshown(unshown: Unshown) {
     KNOWN.lock().unwrap_or_else(PoisonError::into_inner).unshown = unshown;
+}
+
+/// An attribute is the name of regions and boundaries: formats that have such names have it.
+pub(crate) fn heed_naming(name: &str) {
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).naming = Some(name.to_owned());
 }
 
 /// Some attributes are asked for by name: outputs of every kind that have none of them are told.
@@ -106,7 +114,9 @@ pub(super) fn tell(quiet: bool) {
     };
     for (path, format) in outputs() {
         let whose = whose(format);
-        if !whose.is_empty() {
+        let is_kept = |name: &str| format.keeps_names() && known.naming.as_deref() == Some(name);
+        let names: Vec<&str> = names.iter().copied().filter(|name| !is_kept(name)).collect();
+        if !whose.is_empty() && !names.is_empty() {
             let what = format!("the attributes of {whose} are left out: {}", names.join(", "));
             lost(quiet, format_args!("{}: {what}", path.display()));
         } else if known.have_infinities && matches!(format, Format::GeoJson | Format::Json) {

@@ -17,7 +17,9 @@ use delone_io::{
 
 pub use apart::keep_apart;
 pub(crate) use apart::{beside, keep_names_apart};
-pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
+pub(crate) use attributes::{
+    Unshown, are_kept as are_attributes_kept, heed_naming, heed_unshown, keep_attributes,
+};
 pub use graphs::graph;
 pub(crate) use graphs::{graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings};
 pub(crate) use sides::write_sides;

@@ -4,6 +4,7 @@ mod field;
 mod kept;
 mod markers;
 mod names;
+mod naming;
 mod plan;
 mod proof;
 mod seeds;
@@ -32,6 +33,7 @@ use crate::stats::Stats;
 use field::{Sizes, between};
 use kept::Kept;
 use names::{Content, Target};
+use naming::Naming;
 use plan::{Plan, Written};
 use source::{Again, Material, Sources};
 
@@ -65,9 +67,10 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
         targets = names::beside(args, switches, &inputs, &material)?;
     }
     let label = sources.input.label();
-    let Material { graph, fill, again, .. } = material;
+    let Material { mut graph, fill, again, .. } = material;
+    let naming = Naming::of(args, &mut graph)?;
     let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
-    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), &label, quiet)?;
+    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), naming, &label, quiet)?;
     stats.phase("build");
     let (c, report) = (&made.triangulation, &made.refined.report);
     if plan.traits.check {
@@ -121,6 +124,7 @@ struct Made {
     again: Option<Again>,
     /// How many polygons of the input are regions.
     polygons: usize,
+    naming: Naming,
 }
 
 impl Made {
@@ -129,6 +133,7 @@ impl Made {
         from: Constrained,
         plan: &Plan,
         (fill, sizes, again): (FillName, Option<&Sizes>, Option<Again>),
+        naming: Naming,
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
@@ -177,7 +182,7 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons })
+        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons, naming })
     }
 
     /// Writes all files.
@@ -232,6 +237,7 @@ impl Made {
             base: plan.base.unwrap_or(graph.cloud.base),
             constraints: Some(&constraints),
             regions: regions.as_deref(),
+            names: Some(&self.naming.names),
             features: (self.polygons > 0).then_some(features),
             attributes: attributes.as_ref(),
             point_markers: points.as_deref(),
@@ -240,6 +246,8 @@ impl Made {
             element: plan.element.as_deref(),
             ..Mesh::new(kept, &kept.points)
         };
+        self.naming.check(&mesh.side_markers(), &mesh.region_numbers(), quiet);
+        self.naming.tell(targets, quiet);
         let _phase = Phase::start(quiet, "writing");
         for (path, content) in targets {
             files::write_mesh(path, quiet, |out| match content {
@@ -259,7 +267,8 @@ impl Made {
     fn regions(&self, plan: &Plan) -> Option<Vec<f64>> {
         let (c, domains) = (&self.triangulation, &self.refined.domains);
         let again = self.again.as_ref().filter(|again| again.has_attributes());
-        let is_given = again.is_some() || !self.seeds.regions.is_empty() || self.polygons > 1;
+        let has_names = !self.naming.names.regions().is_empty() && self.polygons > 0;
+        let is_given = again.is_some() || !self.seeds.regions.is_empty() || self.polygons > 1 || has_names;
         let is_written = match plan.regions {
             Written::AsGiven => is_given,
             Written::Always => true,
@@ -267,6 +276,7 @@ impl Made {
         };
         let of = |t| match again {
             Some(again) => again.attribute(centroid(c.mesh().corners(t).map(|v| c.point(v)))),
+            None if self.polygons > 0 => self.naming.region(domains.attribute(t).unwrap_or_default()),
             None => domains.attribute(t).unwrap_or_default(),
         };
         is_written.then(|| {

@@ -54,8 +54,10 @@ const ALWAYS: [Format; 14] = [
 ];
 
 /// The first words of files of text.
-const WORDS: [(Format, &[&str]); 5] = [
+const WORDS: [(Format, &[&str]); 7] = [
     (Format::Msh, &["$MeshFormat"]),
+    (Format::Medit, &["MeshVersionFormatted"]),
+    (Format::Su2, &["NDIME=", "NZONE="]),
     (Format::Off, &["OFF", "COFF", "NOFF", "CNOFF", "STOFF"]),
     (Format::Stl, &["solid"]),
     (Format::Pcd, &["VERSION", "FIELDS"]),

@@ -4,10 +4,11 @@ use super::Contents::{
     Answers, Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points,
     Polyhedra, Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
 };
+use super::shared::{OF_GEOJSON, OF_MEDIT, OF_MSH, OF_POLY, OF_SU2, OF_VTK, OF_WKT};
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    dxf, e57, ept, extxyz, flatgeobuf, geojson, geopackage, gpx, lammps, las, list, msh, npy, obj, off,
-    pairs, pcd, ply, poly, ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
+    dxf, e57, ept, extxyz, flatgeobuf, geopackage, gpx, lammps, las, list, npy, obj, off, pairs, pcd, ply,
+    poly, ptx, raw, shapefile, stl, text, triangle, vtk, wkb,
 };
 use crate::raster;
 
@@ -24,26 +25,6 @@ pub(super) struct Row {
     pub(super) readers: Readers,
     pub(super) writes: &'static [Contents],
 }
-
-/// The readers of GeoJSON, which tell by themselves whether there is a feature a line.
-const OF_GEOJSON: Readers = Readers {
-    shapes: Some(|source, options, _, purpose| geojson::read(source, options, purpose)),
-    ..Readers::NONE
-};
-
-/// The readers of well-known text, which tell by themselves whether it is one collection.
-const OF_WKT: Readers =
-    Readers { shapes: Some(|source, options, _, _| wkt::read(source, options)), ..Readers::NONE };
-
-/// The readers of VTK's files of XML.
-const OF_VTK: Readers = Readers {
-    points: Some(|source, _| vtk::read_xml(source)),
-    lines: Some(|source, _, _| vtk::read_xml_graph(source)),
-    has_lines: Some(vtk::has_xml_lines),
-    triangles: Some(vtk::read_xml_simplices),
-    tetrahedra: Some(vtk::read_xml_simplices),
-    ..Readers::NONE
-};
 
 /// Contents that pictures show.
 const DRAWN: &[Contents] =
@@ -130,13 +111,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "Triangle's graphs, and polygons of Osmosis",
         names: &["poly"],
         also: &[],
-        readers: Readers {
-            points: Some(|source, _| poly::read_points(source)),
-            lines: Some(|source, _, beside| poly::read(source, beside)),
-            polygons: Some(poly::read_rings),
-            segments: Some(poly::read_segments),
-            ..Readers::NONE
-        },
+        readers: OF_POLY,
         writes: &[Lines, Triangles, SecondOrder],
     },
     Row {
@@ -444,14 +419,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "Gmsh meshes",
         names: &["msh"],
         also: &[],
-        readers: Readers {
-            points: Some(|source, _| msh::read_points(source)),
-            lines: Some(|source, _, _| msh::read_graph(source)),
-            has_lines: Some(msh::has_lines),
-            triangles: Some(msh::read_simplices),
-            tetrahedra: Some(msh::read_simplices),
-            ..Readers::NONE
-        },
+        readers: OF_MSH,
         writes: &[Triangles, SecondOrder, Tetrahedra],
     },
     Row {
@@ -459,6 +427,54 @@ pub(super) const TABLE: &[Row] = &[
         title: "Abaqus meshes",
         names: &["inp"],
         also: &[],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Medit,
+        title: "Medit meshes, of FreeFEM and MMG",
+        names: &["mesh"],
+        also: &["medit"],
+        readers: OF_MEDIT,
+        writes: &[Triangles, Tetrahedra],
+    },
+    Row {
+        format: Format::Su2,
+        title: "SU2 meshes",
+        names: &["su2"],
+        also: &[],
+        readers: OF_SU2,
+        writes: &[Triangles, Tetrahedra],
+    },
+    Row {
+        format: Format::Sms,
+        title: "SMS meshes",
+        names: &["2dm"],
+        also: &["sms"],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder],
+    },
+    Row {
+        format: Format::Adcirc,
+        title: "ADCIRC grids",
+        names: &["14"],
+        also: &["grd", "adcirc"],
+        readers: Readers::NONE,
+        writes: &[Triangles],
+    },
+    Row {
+        format: Format::Nastran,
+        title: "Nastran bulk data",
+        names: &["bdf", "nas"],
+        also: &["nastran"],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Xdmf,
+        title: "XDMF, with all numbers in it",
+        names: &["xdmf"],
+        also: &["xmf"],
         readers: Readers::NONE,
         writes: &[Triangles, SecondOrder, Tetrahedra],
     },

@@ -17,16 +17,28 @@ pub(super) struct Lines {
     number: usize,
     /// Whether commas are as good as blanks.
     has_commas: bool,
+    /// The comments that were met, without the sign before them, if they are wanted.
+    comments: Option<Vec<String>>,
 }
 
 impl Lines {
     pub(super) fn new(source: Box<dyn Source>) -> Self {
-        Self { source, bytes: Vec::new(), text: String::new(), number: 0, has_commas: false }
+        Self { source, bytes: Vec::new(), text: String::new(), number: 0, has_commas: false, comments: None }
     }
 
     /// Lines as Triangle reads them, to which commas are as good as blanks.
     pub(super) fn of_triangle(source: Box<dyn Source>) -> Self {
         Self { has_commas: true, ..Self::new(source) }
+    }
+
+    /// Keeps the comments from here on.
+    pub(super) fn keep_comments(&mut self) {
+        self.comments = Some(Vec::new());
+    }
+
+    /// The comments that were met.
+    pub(super) fn comments(&mut self) -> Vec<String> {
+        self.comments.take().unwrap_or_default()
     }
 
     /// The next line with something on it besides a comment.
@@ -76,6 +88,11 @@ impl Lines {
         }
         self.text.clear();
         self.text.push_str(&decoded(bytes));
+        if let Some(comments) = &mut self.comments
+            && let Some((_, comment)) = self.text.split_once('#')
+        {
+            comments.push(comment.trim().to_owned());
+        }
         if self.has_commas && self.text.contains(',') {
             self.text = self.text.replace(',', " ");
         }

@@ -1,5 +1,6 @@
 //! The formats, one file each.
 
+pub(crate) mod adcirc;
 mod atoms;
 pub(crate) mod cells;
 pub(crate) mod dxf;
@@ -18,7 +19,10 @@ pub(crate) mod lammps;
 pub(crate) mod las;
 mod lines;
 pub(crate) mod list;
+pub(crate) mod listed;
+pub(crate) mod medit;
 pub(crate) mod msh;
+pub(crate) mod nastran;
 pub(crate) mod npy;
 mod numbers;
 pub(crate) mod obj;
@@ -34,7 +38,9 @@ pub(crate) mod raw;
 mod rings;
 pub(crate) mod shapefile;
 pub(crate) mod shapes;
+pub(crate) mod sms;
 pub(crate) mod stl;
+pub(crate) mod su2;
 pub(crate) mod text;
 pub(crate) mod triangle;
 pub(crate) mod vector;
@@ -43,6 +49,7 @@ pub(crate) mod vtk;
 pub(crate) mod vtu;
 pub(crate) mod wkb;
 pub(crate) mod wkt;
+pub(crate) mod xdmf;
 
 /// A point of the plane or of space, in space.
 fn in_space(p: &impl AsRef<[f64]>) -> [f64; 3] {

@@ -1,4 +1,4 @@
-//! Stanford polygons: read by the `ply-rs-bw` crate, ascii and binary; written in binary, polygons in ascii.
+//! Stanford polygons: read by the `ply-rs-bw` crate, ascii and binary; written in binary, polygons and faces with regions in ascii.
 
 use std::io::{self, BufRead, Write};
 
@@ -165,8 +165,10 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let (points, faces) = (shape.positions().count(), shape.triangles().count());
-    let mut regions = shape.region_values();
-    header(out, points, Some((faces, regions.is_some())), shape.crs())?;
+    if let Some(regions) = shape.region_values() {
+        return write_with_regions(out, shape, regions);
+    }
+    header(out, points, Some(faces), shape.crs())?;
     for position in shape.positions() {
         write_position(out, position)?;
     }
@@ -175,9 +177,25 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
         for corner in triangle {
             out.write_all(&(corner as u32).to_le_bytes())?;
         }
-        if let Some(region) = regions.as_mut().and_then(Iterator::next) {
-            out.write_all(&region.to_le_bytes())?;
-        }
+    }
+    Ok(())
+}
+
+/// Writes triangles with a region each. As text: meshio takes it that in binary files all lists of corners come first, and then a value
+/// for each face, so it fails where the value of a face follows its list, as the format has it.
+fn write_with_regions(
+    out: &mut dyn Write,
+    shape: &impl Shape,
+    regions: impl Iterator<Item = f64>,
+) -> io::Result<()> {
+    vertex_header(out, "ascii", shape.positions().count(), shape.crs())?;
+    writeln!(out, "element face {}\nproperty list uchar uint vertex_indices", shape.triangles().count())?;
+    writeln!(out, "property double region\nend_header")?;
+    for [x, y, z] in shape.positions() {
+        writeln!(out, "{x:?} {y:?} {z:?}")?;
+    }
+    for ([a, b, c], region) in shape.triangles().zip(regions) {
+        writeln!(out, "3 {a} {b} {c} {region:?}")?;
     }
     Ok(())
 }
@@ -211,17 +229,11 @@ pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; 
     points.iter().try_for_each(|p| write_position(out, in_space(p)))
 }
 
-/// Of so many points, and of so many faces that have regions or not.
-fn header(
-    out: &mut dyn Write,
-    points: usize,
-    faces: Option<(usize, bool)>,
-    crs: Option<&Crs>,
-) -> io::Result<()> {
+/// Of so many points and so many faces.
+fn header(out: &mut dyn Write, points: usize, faces: Option<usize>, crs: Option<&Crs>) -> io::Result<()> {
     vertex_header(out, "binary_little_endian", points, crs)?;
-    if let Some((count, have_regions)) = faces {
+    if let Some(count) = faces {
         write!(out, "element face {count}\nproperty list uchar uint vertex_indices\n")?;
-        write!(out, "{}", if have_regions { "property double region\n" } else { "" })?;
     }
     writeln!(out, "end_header")
 }

@@ -1,5 +1,7 @@
 //! The `.poly` files of Shewchuk's Triangle: points, segments between them, holes, regions; and its `.area` files. Indices
 //! are from 0 or from 1, as the first point says; for all points and all ends of segments it is the same.
+//!
+//! Names are comments of ours: `# boundary 2 inlet` and `# region 1 steel`, anywhere in the file.
 
 use std::io::{self, Write};
 
@@ -8,7 +10,7 @@ use delone::{RegionSeed2, Triangulation};
 use super::lines::{Line, Lines};
 use super::osmosis;
 use super::triangle::{NodeRows, Nodes, RESERVED_ROWS, count};
-use crate::{Cloud, Constraints, Error, Graph, Mesh, Rings, Source};
+use crate::{Cloud, Constraints, Error, Graph, Mesh, Names, Rings, Source};
 
 /// Opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -19,6 +21,7 @@ pub(crate) fn read(mut source: Box<dyn Source>, beside: Option<Beside>) -> Resul
         return osmosis::read(source)?.graph();
     }
     let mut lines = Lines::of_triangle(source);
+    lines.keep_comments();
     let mut nodes = Nodes::read(&mut lines, true)?;
     if nodes.cloud.xy.is_empty() {
         let open = beside.ok_or(Error::PointsElsewhere)?;
@@ -37,10 +40,26 @@ pub(crate) fn read(mut source: Box<dyn Source>, beside: Option<Beside>) -> Resul
     (graph.segments, graph.markers) = (segments, markers);
     graph.holes = holes(&mut lines)?;
     graph.regions = regions(&mut lines, &mut graph.cloud.remarks)?;
-    match lines.next()? {
-        Some(line) => Err(line.error("more follows than the counts before it say")),
-        None => Ok(graph),
+    if let Some(line) = lines.next()? {
+        return Err(line.error("more follows than the counts before it say"));
     }
+    graph.names = names(&lines.comments())?;
+    Ok(graph)
+}
+
+/// The names in comments; other comments are none.
+fn names(comments: &[String]) -> Result<Names, Error> {
+    let mut names = Names::default();
+    for comment in comments {
+        let mut words = comment.splitn(3, char::is_whitespace);
+        let [Some(kind), Some(number), Some(name)] = [(); 3].map(|()| words.next()) else { continue };
+        match (kind, number.parse(), number.parse()) {
+            ("boundary", Ok(marker), _) => names.name_boundary(marker, name)?,
+            ("region", _, Ok(number)) => names.name_region(number, name)?,
+            _ => {}
+        }
+    }
+    Ok(names)
 }
 
 /// Whether the points of a file are in the `.node` file beside it: its first number, which counts them, is 0.
@@ -222,7 +241,7 @@ pub(crate) fn read_areas(source: Box<dyn Source>) -> Result<Vec<Option<f64>>, Er
 
 /// Writes a graph, with all that it has; a graph without attributes writes its heights as one.
 pub(crate) fn write_graph(out: &mut dyn Write, graph: &Graph) -> io::Result<()> {
-    let Graph { cloud, attributes, point_markers, .. } = graph;
+    let Graph { cloud, attributes, point_markers, names, .. } = graph;
     let (width, values) = match &cloud.z {
         Some(heights) if attributes.width == 0 => (1, heights),
         _ => (attributes.width, &attributes.values),
@@ -230,7 +249,7 @@ pub(crate) fn write_graph(out: &mut dyn Write, graph: &Graph) -> io::Result<()> 
     let (base, points, markers) = (cloud.base, &cloud.xy[..], point_markers.as_deref());
     NodeRows { base, columns: 2, points, width, values, markers }.write(out)?;
     let Graph { segments, markers, holes, regions, .. } = graph;
-    Rest { segments, markers: markers.as_deref(), holes, regions }.write(out, cloud.base)
+    Rest { segments, markers: markers.as_deref(), holes, regions, names: Some(names) }.write(out, cloud.base)
 }
 
 /// Writes the points of a mesh, and its constraints as segments; the border where there are none. The middles of edges are no
@@ -244,11 +263,17 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
         let border = mesh.edges().filter(|edge| edge.1);
         let segments: Vec<_> = border.map(|(ends, _)| ends.map(|v| v.index())).collect();
         let markers = vec![1; segments.len()];
-        let rest = Rest { segments: &segments, markers: Some(&markers), holes: &[], regions: &[] };
+        let rest = Rest {
+            segments: &segments,
+            markers: Some(&markers),
+            holes: &[],
+            regions: &[],
+            names: mesh.names,
+        };
         return rest.write(out, mesh.base);
     };
     let segments: Vec<_> = edges.iter().map(|ends| ends.map(|v| v.index())).collect();
-    Rest { segments: &segments, markers, holes, regions }.write(out, mesh.base)
+    Rest { segments: &segments, markers, holes, regions, names: mesh.names }.write(out, mesh.base)
 }
 
 /// The part of a file after the points.
@@ -257,6 +282,7 @@ struct Rest<'a> {
     markers: Option<&'a [i64]>,
     holes: &'a [[f64; 2]],
     regions: &'a [RegionSeed2],
+    names: Option<&'a Names>,
 }
 
 impl Rest<'_> {
@@ -280,6 +306,15 @@ impl Rest<'_> {
         }
         for (i, RegionSeed2 { at: [x, y], attribute, max_area, .. }) in self.regions.iter().enumerate() {
             writeln!(out, "{} {x:?} {y:?} {attribute:?} {:?}", base + i, max_area.unwrap_or(-1.0))?;
+        }
+        let Some(names) = self.names else { return Ok(()) };
+        // No name ends the line of its comment.
+        let on_line = |name: &str| name.replace(char::is_control, "_");
+        for (marker, name) in names.boundaries() {
+            writeln!(out, "# boundary {marker} {}", on_line(name))?;
+        }
+        for (number, name) in names.regions() {
+            writeln!(out, "# region {number:?} {}", on_line(name))?;
         }
         Ok(())
     }

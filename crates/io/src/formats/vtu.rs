@@ -6,7 +6,7 @@ pub(crate) use polyhedra::write_polyhedra;
 
 use std::io::{self, Write};
 
-use delone::Triangulation;
+use delone::{Coordinates, Triangulation};
 
 use crate::middles::Middles;
 use crate::xml::escaped;
@@ -15,30 +15,36 @@ use crate::{ColumnType, Mesh, Remark, Shape, Table};
 /// VTK's numbers for a triangle, for a tetrahedron, and for a triangle of second order, by their nodes.
 const KINDS: [(usize, u8); 3] = [(3, 5), (4, 10), (6, 22)];
 
+/// VTK's numbers for a line, and for one of second order, by their nodes.
+const LINES: [(usize, u8); 2] = [(2, 3), (3, 21)];
+
 /// The largest number of columns of attributes: each is an array of all cells.
 const MOST_COLUMNS: usize = 256;
 
-/// The array of cells that is ours.
-const REGION: [&str; 1] = ["region"];
+/// The arrays of cells that are ours.
+const OURS: [&str; 2] = ["region", "marker"];
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remark> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
-    let attributes = Attributes::of(shape.table(), &REGION, || shape.rows().collect());
-    let grid = Grid { points, heights: shape.heights(), cells, width: 3, attributes: &attributes };
+    let attributes = Attributes::of(shape.table(), &OURS, || shape.rows().collect());
+    let grid =
+        Grid { points, heights: shape.heights(), cells, width: 3, attributes: &attributes, lines: None };
     grid.write(out, shape.positions(), shape.triangles(), shape.region_values())?;
     Ok(attributes.remark())
 }
 
-/// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes.
+/// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes. Where markers or names of boundaries
+/// are known, the sides follow as lines, with an array of markers that is 0 for triangles.
 pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<Remark> {
     let (points, cells) = (mesh.points.len(), mesh.simplex_count());
-    let attributes = Attributes::of(mesh.features.map(|features| features.table), &REGION, || {
-        mesh.feature_rows().collect()
-    });
+    let attributes =
+        Attributes::of(mesh.features.map(|features| features.table), &OURS, || mesh.feature_rows().collect());
+    let middles = mesh.second_order.then(|| Middles::of(mesh));
+    let lines = has_lines(mesh).then(|| Lines::of(mesh, middles.as_ref()));
+    let width = Mesh::<T>::WIDTH;
     let grid =
-        Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH, attributes: &attributes };
-    if mesh.second_order {
-        let middles = Middles::of(mesh);
+        Grid { points, heights: mesh.heights, cells, width, attributes: &attributes, lines: lines.as_ref() };
+    if let Some(middles) = middles {
         let positions: Vec<[f64; 3]> = mesh.positions().collect();
         let positions = middles.points(&positions);
         let heights = mesh.heights.map(|heights| middles.values(1, heights));
@@ -49,6 +55,35 @@ pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) 
         grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values())?;
     }
     Ok(attributes.remark())
+}
+
+/// Whether the sides of a mesh are told apart: in the plane, if there are markers or names of boundaries.
+fn has_lines<T: Triangulation>(mesh: &Mesh<T>) -> bool {
+    let has_markers = mesh.constraints.is_some_and(|constraints| constraints.markers.is_some());
+    let has_names = mesh.names.is_some_and(|names| !names.boundaries().is_empty());
+    T::Point::COUNT == 2 && mesh.simplex_count() > 0 && (has_markers || has_names)
+}
+
+/// The sides as cells.
+struct Lines {
+    /// The nodes of a line: its ends, and perhaps its middle.
+    width: usize,
+    nodes: Vec<usize>,
+    markers: Vec<i64>,
+}
+
+impl Lines {
+    fn of<T: Triangulation>(mesh: &Mesh<T>, middles: Option<&Middles>) -> Self {
+        let mut found =
+            Self { width: 2 + usize::from(middles.is_some()), nodes: Vec::new(), markers: Vec::new() };
+        for (ends, marker) in mesh.sides() {
+            found
+                .nodes
+                .extend(ends.iter().map(|v| v.index()).chain(middles.map(|middles| middles.of_edge(ends))));
+            found.markers.push(marker);
+        }
+        found
+    }
 }
 
 /// The attributes of cells that are numbers, and which others there are.
@@ -106,6 +141,8 @@ struct Grid<'a> {
     cells: usize,
     width: usize,
     attributes: &'a Attributes<'a>,
+    /// Lines after the cells.
+    lines: Option<&'a Lines>,
 }
 
 impl Grid<'_> {
@@ -116,7 +153,9 @@ impl Grid<'_> {
         corners: impl Iterator<Item: IntoIterator<Item = usize>>,
         regions: Option<impl Iterator<Item = f64>>,
     ) -> io::Result<()> {
-        let Self { points, heights, cells, width, attributes } = *self;
+        let Self { points, heights, cells, width, attributes, lines } = *self;
+        let line_count = lines.map_or(0, |lines| lines.markers.len());
+        let all = cells + line_count;
         let kind = KINDS.into_iter().find(|kind| kind.0 == width).map_or(0, |kind| kind.1);
         // Each array is preceded by its length in eight bytes.
         let mut end = 0;
@@ -128,16 +167,17 @@ impl Grid<'_> {
         let offsets = [
             place(24 * points),
             heights.map_or(0, |heights| place(8 * heights.len())),
-            place(8 * width * cells),
-            place(8 * cells),
-            place(cells),
-            regions.as_ref().map_or(0, |_| place(8 * cells)),
+            place(8 * (width * cells + lines.map_or(0, |lines| lines.nodes.len()))),
+            place(8 * all),
+            place(all),
+            regions.as_ref().map_or(0, |_| place(8 * all)),
+            lines.map_or(0, |_| place(8 * all)),
         ];
         writeln!(
             out,
             r#"<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
-<UnstructuredGrid><Piece NumberOfPoints="{points}" NumberOfCells="{cells}">
+<UnstructuredGrid><Piece NumberOfPoints="{points}" NumberOfCells="{all}">
 <Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="{}"/></Points>"#,
             offsets[0]
         )?;
@@ -145,7 +185,7 @@ impl Grid<'_> {
             let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
             writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
         }
-        if regions.is_some() || !attributes.columns.is_empty() {
+        if regions.is_some() || lines.is_some() || !attributes.columns.is_empty() {
             write!(out, "<CellData{}>", if regions.is_some() { r#" Scalars="region""# } else { "" })?;
             let named = |name: &str, offset: usize| {
                 let name = escaped(name);
@@ -154,8 +194,12 @@ impl Grid<'_> {
             if regions.is_some() {
                 write!(out, "{}", named("region", offsets[5]))?;
             }
+            if lines.is_some() {
+                let array = r#"<DataArray type="Int64" Name="marker" format="appended""#;
+                write!(out, r#"{array} offset="{}"/>"#, offsets[6])?;
+            }
             for (_, name) in &attributes.columns {
-                write!(out, "{}", named(name, place(8 * cells)))?;
+                write!(out, "{}", named(name, place(8 * all)))?;
             }
             writeln!(out, "</CellData>")?;
         }
@@ -172,14 +216,27 @@ impl Grid<'_> {
         if let Some(heights) = heights {
             array(out, heights.len(), heights.iter().map(|z| z.to_le_bytes()))?;
         }
-        array(out, width * cells, corners.flatten().map(|index| (index as i64).to_le_bytes()))?;
-        array(out, cells, (1..=cells).map(|end| ((width * end) as i64).to_le_bytes()))?;
-        array(out, cells, (0..cells).map(|_| [kind]))?;
+        let nodes = lines.map_or(&[][..], |lines| &lines.nodes);
+        let corners = corners.flatten().chain(nodes.iter().copied());
+        array(out, width * cells + nodes.len(), corners.map(|index| (index as i64).to_le_bytes()))?;
+        let line_width = lines.map_or(0, |lines| lines.width);
+        let ends = (1..=cells).map(|end| width * end);
+        let ends = ends.chain((1..=line_count).map(|end| width * cells + line_width * end));
+        array(out, all, ends.map(|end| (end as i64).to_le_bytes()))?;
+        let kind_of_lines = LINES.into_iter().find(|kind| kind.0 == line_width).map_or(0, |kind| kind.1);
+        let kinds = std::iter::repeat_n(kind, cells).chain(std::iter::repeat_n(kind_of_lines, line_count));
+        array(out, all, kinds.map(|kind| [kind]))?;
         if let Some(regions) = regions {
-            array(out, cells, regions.map(f64::to_le_bytes))?;
+            let of_lines = std::iter::repeat_n(0.0, line_count);
+            array(out, all, regions.chain(of_lines).map(f64::to_le_bytes))?;
+        }
+        if let Some(Lines { markers, .. }) = lines {
+            let of_cells = std::iter::repeat_n(0, cells);
+            array(out, all, of_cells.chain(markers.iter().copied()).map(i64::to_le_bytes))?;
         }
         for &(column, _) in &attributes.columns {
-            array(out, cells, attributes.values(column).map(f64::to_le_bytes))?;
+            let of_lines = std::iter::repeat_n(f64::NAN, line_count);
+            array(out, all, attributes.values(column).chain(of_lines).map(f64::to_le_bytes))?;
         }
         writeln!(out, "\n</AppendedData>\n</VTKFile>")
     }

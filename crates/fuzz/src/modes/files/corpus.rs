@@ -282,8 +282,10 @@ fn meshes() -> Seeds {
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
     seeds.extend(GRAPHS.map(|(format, text)| (format, text.as_bytes().to_vec())));
-    seeds.extend([Format::Poly, Format::Edge, Format::Vtu, Format::Msh].map(mesh));
+    seeds
+        .extend([Format::Poly, Format::Edge, Format::Vtu, Format::Msh, Format::Medit, Format::Su2].map(mesh));
     seeds.push((Format::Msh, OLD_GMSH.as_bytes().to_vec()));
+    seeds.extend(NAMED.map(|(format, text)| (format, text.as_bytes().to_vec())));
     let legacy = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4\n5 6\n";
     seeds.push((Format::Vtk, legacy.as_bytes().to_vec()));
     let xml = "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece><Points>\
@@ -314,6 +316,24 @@ const GRAPHS: [(Format, &str); 4] = [
 const OLD_GMSH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"plate\"\n$EndPhysicalNames\n$Nodes\n4\n\
     10 0 0 0\n20 1 0 0.5\n30 1 1 0\n25 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 1 10 20\n3 2 2 5 1 10 20 30\n\
     4 4 2 0 1 10 20 30 25\n$EndElements\n";
+
+/// Meshes with names, and with what else their formats have.
+const NAMED: [(Format, &str); 3] = [
+    (
+        Format::Poly,
+        "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n1 1\n1 1 2 2\n0\n# boundary 2 in # let\n#region 1e0 \"steel\"\n",
+    ),
+    (
+        Format::Medit,
+        "MeshVersionFormatted 1\n\nDimension\n3\nVertices 3 0 0 1 7\n4 0 2 7\n0 3 3.5 7\nCorners\n1\n2\n\
+         Edges\n1\n1 2 -5\nTriangles\n1\n1 2 3 4\nEnd\n",
+    ),
+    (
+        Format::Su2,
+        "% by hand\nNDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 3 3\n0 0 0\n4 0 1\n0 3 2\nNMARK= 2\n\
+         MARKER_TAG= inlet % west\nMARKER_ELEMS= 1\n3 0 2\nMARKER_TAG= 1\nMARKER_ELEMS= 1\n3 0 1\n",
+    ),
+];
 
 /// Geometries as text and as bytes.
 const GEOMETRIES: [&str; 4] = [

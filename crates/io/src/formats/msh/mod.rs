@@ -9,29 +9,32 @@ use std::io::{self, Write};
 
 use delone::Triangulation;
 
-use crate::Mesh;
 use crate::elements::{Elements, Group};
+use crate::names::{Rule, told};
+use crate::{Mesh, Remark};
 
-pub(crate) use read::{has_lines, read_graph, read_points, read_simplices};
+pub(crate) use read::{has_lines, read_graph, read_groups, read_points, read_simplices};
 
 /// Gmsh's numbers for elements, by dimension and order: lines, triangles, tetrahedra.
 const KINDS: [[u8; 2]; 4] = [[15, 15], [1, 8], [2, 9], [4, 11]];
 
 /// Writes the cells of a mesh by region, and its sides by marker.
-pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<Remark> {
     let elements = Elements::of(mesh);
+    let names = elements.names(Rule::TEXT);
     let sides = elements.sides.iter().map(|group| (elements.dimension - 1, group));
     let groups: Vec<(usize, &Group)> =
         sides.chain(elements.cells.iter().map(|group| (elements.dimension, group))).collect();
     writeln!(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
     writeln!(out, "$PhysicalNames\n{}", groups.len())?;
-    for (dimension, group) in &groups {
-        writeln!(out, "{dimension} {} \"{}\"", group.tag, group.name)?;
+    for ((dimension, group), name) in groups.iter().zip(names.sides.iter().chain(&names.cells)) {
+        writeln!(out, "{dimension} {} \"{name}\"", group.tag)?;
     }
     writeln!(out, "$EndPhysicalNames")?;
     write_entities(out, &elements, &groups)?;
     write_nodes(out, &elements, &groups)?;
-    write_elements(out, &elements, &groups)
+    write_elements(out, &elements, &groups)?;
+    Ok(told(&names.changed))
 }
 
 /// Entities: `points curves surfaces volumes`, then `tag box groups group boundaries` each.

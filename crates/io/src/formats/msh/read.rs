@@ -5,12 +5,12 @@ use super::groups::Groups;
 use crate::error::excerpt;
 use crate::formats::lines::{Line, Lines};
 use crate::formats::triangle::RESERVED_ROWS;
-use crate::{Cloud, Error, Graph, Source};
+use crate::{Attributes, Cloud, Error, Graph, Source};
 
 /// Reads the points.
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let mesh = Mesh::<2>::read(source)?;
-    let mut cloud = mesh.cloud();
+    let mut cloud = mesh.cloud(false);
     if mesh.markers.iter().any(|&marker| marker != 0) {
         cloud.losses.push("physical groups of lines are left out".to_owned());
     }
@@ -18,13 +18,14 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
 }
 
 /// Reads the points, and the lines between them as segments, which are borders; the number of the physical group is the marker.
+/// Names of groups of lines are those of boundaries, names of groups of surfaces those of regions.
 pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
     let mesh = Mesh::<2>::read(source)?;
-    let cloud = mesh.cloud();
+    let (cloud, names) = (mesh.cloud(true), mesh.groups.names()?);
     let ends = |side: [u64; 2]| side.map(|end| end as usize);
     let segments: Vec<[usize; 2]> = mesh.simplices.unwrap_or_default().into_iter().map(ends).collect();
     let markers = mesh.markers.iter().any(|&marker| marker != 0).then_some(mesh.markers);
-    Ok(Graph { is_border: vec![true; segments.len()], segments, markers, ..Graph::of_points(cloud) })
+    Ok(Graph { is_border: vec![true; segments.len()], segments, markers, names, ..Graph::of_points(cloud) })
 }
 
 /// Whether there is a line in it.
@@ -36,6 +37,14 @@ pub(crate) fn has_lines(source: Box<dyn Source>) -> bool {
 /// fewer corners are passed over, and so are tetrahedra where triangles are wanted.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     Mesh::read(source)?.simplices.ok_or_else(|| Error::content("MSH: it has no $Elements"))
+}
+
+/// Reads the physical groups of the triangles; nothing if none is in any.
+pub(crate) fn read_groups(source: Box<dyn Source>) -> Result<Attributes, Error> {
+    let mesh = Mesh::<3>::read(source)?;
+    let is_known = mesh.markers.iter().any(|&group| group != 0);
+    let values = mesh.markers.into_iter().filter(|_| is_known).map(|group| group as f64).collect();
+    Ok(Attributes { width: usize::from(is_known), values })
 }
 
 /// Nodes, and elements of N corners.
@@ -69,10 +78,10 @@ impl<const N: usize> Mesh<N> {
         Ok(Self { simplices: has_elements.then_some(simplices), markers, nodes, groups })
     }
 
-    fn cloud(&self) -> Cloud {
+    fn cloud(&self, takes_names: bool) -> Cloud {
         let mut cloud = Cloud::with_capacity(self.nodes.len(), true);
         self.nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
-        cloud.losses = self.groups.losses();
+        cloud.losses = self.groups.losses(takes_names);
         cloud
     }
 }
@@ -249,7 +258,7 @@ impl Reader {
                 return Err(line.error(format!("{more} elements after {done} of {count}")));
             }
             let wanted = is_wanted::<N>(&line, kind)?;
-            let group = if N == 2 { groups.of_curve(entity) } else { 0 };
+            let group = groups.of(N - 1, entity);
             for i in done..done + more {
                 let line = self.line_of("elements", i, count)?;
                 if wanted {
@@ -270,6 +279,11 @@ impl Reader {
         let mut words = line.text.split_whitespace();
         let blocks = line.number(words.next(), "the number of blocks")?;
         Ok((blocks, line.number(words.next(), &format!("the number of {what}"))?))
+    }
+
+    /// A line with what follows a number sign, which a name may have.
+    pub(super) fn whole_line_of(&mut self, what: &str, i: usize, count: usize) -> Result<Line<'_>, Error> {
+        self.lines.next_whole()?.ok_or_else(|| Error::Truncated(format!("after {i} of {count} {what}")))
     }
 
     pub(super) fn line_of(&mut self, what: &str, i: usize, count: usize) -> Result<Line<'_>, Error> {
