@@ -13,10 +13,7 @@ mod tell;
 
 use std::path::Path;
 
-use delone::{
-    Constrained2, EdgeId, Error, Fill, Location2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
-    VertexId,
-};
+use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Shapes2, Triangulation, VertexId};
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
     write_voronoi_node,
