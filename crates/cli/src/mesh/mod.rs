@@ -2,6 +2,7 @@
 
 mod field;
 mod kept;
+mod layers;
 mod markers;
 mod names;
 mod plan;
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let label = sources.input.label();
     let Material { graph, fill, again, .. } = material;
     let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
-    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), &label, quiet)?;
+    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), &args.layers.layers, &label, quiet)?;
     stats.phase("build");
     let (c, report) = (&made.triangulation, &made.refined.report);
     if plan.traits.check {
@@ -126,6 +127,7 @@ impl Made {
         from: Constrained,
         plan: &Plan,
         (fill, sizes, again): (FillName, Option<&Sizes>, Option<Again>),
+        markers: &[i64],
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
@@ -149,6 +151,10 @@ impl Made {
         }
         if again.as_ref().is_some_and(Again::has_areas) {
             wanted = wanted.max_area_at(&area);
+        }
+        let layers = layers::on_segments(plan.layers.as_ref(), markers, &triangulation, &graph)?;
+        if let Some(layers) = &layers {
+            wanted = wanted.layers(layers);
         }
         let width = graph.attributes.width;
         let has_values = heights.is_some() || width > 0;
@@ -193,7 +199,8 @@ impl Made {
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
         let lines = features::of_lines(c, graph);
         let (mut edge_markers, mut edge_rows) = (Vec::new(), Vec::new());
-        for (i, [v, w]) in c.constraints().enumerate() {
+        let shown = layers::shown(c, graph, domains);
+        for (i, [v, w]) in c.constraints().enumerate().filter(|(i, _)| shown[*i]) {
             if let (Some(v), Some(w)) = (kept.name(v), kept.name(w)) {
                 edges.push([v, w]);
                 edge_markers.extend(markers.as_ref().map(|markers| markers.edges[i]));

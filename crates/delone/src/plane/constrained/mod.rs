@@ -27,6 +27,7 @@ mod crossings;
 mod domains;
 mod flips;
 mod force;
+mod layered;
 mod locate;
 mod members;
 mod nearest;

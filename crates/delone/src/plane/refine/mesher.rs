@@ -322,7 +322,11 @@ impl<'a> Mesher<'a> {
     /// Why a constraint cannot be split, if it cannot.
     pub(super) fn refusal(&self, e: EdgeId) -> Option<Reason> {
         let mesh = &self.layer.mesh;
-        let inside = [e, mesh.twin(e)].map(|e| self.is_inside(e.triangle()));
+        let sides = [e, mesh.twin(e)].map(|e| e.triangle());
+        let inside = sides.map(|t| self.is_inside(t));
+        if sides.into_iter().any(|t| self.rules.is_layer(mesh.domain(t))) {
+            return Some(Reason::Kept);
+        }
         if self.rules.keeps(inside[0] && inside[1]) {
             return Some(Reason::Kept);
         }

@@ -15,6 +15,7 @@
 
 mod free;
 mod frontal;
+mod layers;
 mod mesher;
 mod queue;
 mod report;
@@ -25,7 +26,8 @@ mod smooth;
 mod split;
 mod survey;
 
-pub use report::{Reason, RefinementReport2, Unrefined2};
+pub use layers::Layers2;
+pub use report::{LayerReport2, Reason, RefinementReport2, Unrefined2};
 pub use shapes::Shapes2;
 
 use super::constrained::{Constrained2, Domains2, Fill, Origin};
@@ -79,6 +81,7 @@ pub struct Refinement<'a> {
     keep: Keep,
     conforming: bool,
     smoothing: usize,
+    layers: Option<&'a Layers2>,
     stop: Option<&'a dyn Fn() -> bool>,
     watch: Option<&'a dyn Fn(usize)>,
     fill: Fill<'a>,
@@ -108,6 +111,7 @@ impl std::fmt::Debug for Refinement<'_> {
             .field("keep", &self.keep)
             .field("conforming", &self.conforming)
             .field("smoothing", &self.smoothing)
+            .field("layers", &self.layers)
             .field("fill", &self.fill)
             .finish_non_exhaustive()
     }
@@ -151,6 +155,7 @@ impl<'a> Refinement<'a> {
             keep: Keep::Nothing,
             conforming: false,
             smoothing: 0,
+            layers: None,
             stop: None,
             watch: None,
             fill: Fill::All,
@@ -314,6 +319,13 @@ impl<'a> Refinement<'a> {
         Self { smoothing: rounds, ..self }
     }
 
+    /// Rows of thin triangles along the border, or along segments that are chosen; the rest is as without them, and the last line of the rows
+    /// is a border that is not split. See [`Layers2`].
+    #[must_use]
+    pub fn layers(self, layers: &'a Layers2) -> Self {
+        Self { layers: Some(layers), ..self }
+    }
+
     /// Ends with [`Error::Stopped`] soon after this says so; it is asked now and then.
     #[must_use]
     pub fn stop_if(self, stop: &'a dyn Fn() -> bool) -> Self {
@@ -364,6 +376,9 @@ impl<'a> Refinement<'a> {
     /// ```
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
+        if let Some(wanted) = self.layers {
+            return self.run_around(wanted, c);
+        }
         if self.min_angle <= STEEPEST_THAT_ENDS || self.max_vertices.is_some() {
             return self.run_to_the_end(c);
         }
@@ -375,6 +390,20 @@ impl<'a> Refinement<'a> {
         let mut refined = steeper.run_to_the_end(c)?;
         refined.report.inside += first.report.inside;
         refined.report.on_constraints += first.report.on_constraints;
+        Ok(refined)
+    }
+
+    /// Makes boundary layers, and refines what is around them.
+    fn run_around(&self, wanted: &Layers2, c: &mut Constrained2) -> Result<Refined2, Error> {
+        let grown = layers::grow(self, wanted, c)?;
+        let max_vertices =
+            self.max_vertices.map(|most| most.saturating_sub(grown.inside + grown.on_constraints));
+        let rest = Refinement { layers: None, max_vertices, fill: Fill::Parts(&grown.domains), ..*self };
+        let mut refined = rest.run(c)?;
+        let report = &mut refined.report;
+        report.inside += grown.inside;
+        report.on_constraints += grown.on_constraints;
+        report.layers = LayerReport2 { triangles: report.layers.triangles, ..grown.report };
         Ok(refined)
     }
 
@@ -434,6 +463,9 @@ impl<'a> Refinement<'a> {
         }
         if self.growth.is_nan() || self.growth <= 1.0 {
             return Err(Error::Parameter { name: "growth", value: self.growth, range: "more than 1" });
+        }
+        if let Some(layers) = self.layers {
+            layers.check()?;
         }
         let bounds = [("max_area", self.max_area), ("max_edge", self.max_edge), ("edge", self.edge)];
         match bounds

@@ -70,6 +70,11 @@ impl<'m, 'a> Frontal<'m, 'a> {
         Ok(())
     }
 
+    /// Divides constraints, and does no more.
+    pub(super) fn only_divide(mut self) -> Result<(), Error> {
+        self.divide_constraints()
+    }
+
     fn point(&self, p: Place) -> [f64; 2] {
         self.mesher.point(p)
     }
