@@ -5,4 +5,5 @@ mod bounds;
 mod ends;
 mod frontal;
 mod judge;
+mod layers;
 mod nasty;

@@ -60,7 +60,7 @@ pub struct LayerReport2 {
     pub rows: usize,
     /// Vertices on the chosen segments, one for each side with layers.
     pub places: usize,
-    /// Those of them that have fewer rows than were asked for, because there is no room for more.
+    /// The number of these vertices that have fewer rows than were asked for, because there is no room for more.
     pub shortened: usize,
 }
 

@@ -1,9 +1,11 @@
 //! Layers become part of the triangulation: their vertices, then lines and ribs as segments, and a proof that all cells are there.
 //!
-//! What is planned has room by exact tests, but places on ribs are rounded. So each cell is looked for in the triangulation. Where one is
+//! Plans have room by exact tests, but places on ribs are rounded. So each cell is looked for in the triangulation. Where one is
 //! missing, or a segment would cross another one, a row is taken and all is made anew.
 //!
 //! Cost: O(log n) for each vertex.
+
+use std::collections::BTreeMap;
 
 use crate::error::Error;
 use crate::ids::{Inserted, TriangleId, VertexId};
@@ -28,18 +30,22 @@ pub(super) struct Built {
 /// Puts the vertices of ribs on constraints that these follow, from the border on. Where one has no place, rows end.
 pub(super) fn follow(plan: &mut Plan, mesher: &mut Mesher) -> Vec<Vec<Place>> {
     let mut followed = vec![Vec::new(); plan.chains.spots.len()];
+    // Rows may come from both ends of a constraint: how far they came, by the end that they started at and the other one.
+    let mut reached: BTreeMap<[Place; 2], Place> = BTreeMap::new();
     for spot in 0..plan.chains.spots.len() {
         let own = &plan.chains.spots[spot];
         let Some(end) = own.beside.filter(|_| plan.ribs[spot].follows) else { continue };
         let mut last = own.base;
         for row in 1..=plan.rows[spot] {
             let at = plan.line_on((spot, 0), row);
-            let edge = mesher.layer.mesh.edge_between(last, end);
+            let goal = reached.get(&[end, own.base]).copied().unwrap_or(end);
+            let edge = mesher.layer.mesh.edge_between(last, goal);
             let Some(v) = edge.and_then(|e| mesher.divide(e, at)) else {
                 plan.rows[spot] = row - 1;
                 break;
             };
             followed[spot].push(v);
+            reached.insert([own.base, end], v);
             last = v;
         }
     }

@@ -15,7 +15,7 @@ use super::chains::{Chains, Spot};
 const FAN_COSINE: f64 = 0.5;
 /// The square of the largest distance of neighboring steps of a fan: that of 50 degrees.
 const WIDEST_STEP: f64 = 0.714;
-/// The longest edge of the last line around a fan, in lengths of the sides there.
+/// The longest edge of the last line around a fan, in lengths of the sides there, or heights of the last row if that is more.
 const LONGEST_OF_FAN: f64 = 1.4;
 /// One and the cosine of a turn, below which there are no rows in a corner: 26 degrees of the mesh.
 const NARROWEST_CORNER: f64 = 0.1;
@@ -23,7 +23,7 @@ const NARROWEST_CORNER: f64 = 0.1;
 const CORNER_COSINE: f64 = 0.866;
 /// The largest cosine of the angle between a side and a constraint that rows follow: from 50 to 130 degrees.
 const FOLLOWED_COSINE: f64 = 0.643;
-/// What a corner leans at full height, times this, is the way over which neighbors lean.
+/// Neighbors lean over a way so many times as long as a corner leans at full height.
 const LEANING_WAY: f64 = 4.0;
 
 /// The ribs of a spot.
@@ -41,9 +41,9 @@ fn dot(u: [f64; 2], v: [f64; 2]) -> f64 {
     u[0] * v[0] + u[1] * v[1]
 }
 
-/// The ribs of all spots, for rows so high together.
-pub(super) fn all(chains: &Chains, height: f64) -> Vec<Ribs> {
-    let spacing = |k: usize| chains.spacing(k);
+/// The ribs of all spots, for rows so high together, and a last one so high.
+pub(super) fn all(chains: &Chains, height: f64, last: f64) -> Vec<Ribs> {
+    let spacing = |k: usize| chains.spacing(k).max(last);
     let mut ribs: Vec<Ribs> =
         chains.spots.iter().enumerate().map(|(k, spot)| of(spot, height, spacing(k))).collect();
     let leans: Vec<f64> = (0..ribs.len()).map(|k| lean(chains, &ribs, k, height)).collect();

@@ -42,7 +42,8 @@ impl Plan {
     /// As many rows as were asked for.
     pub(super) fn new(chains: Chains, heights: Vec<f64>) -> Self {
         let most = heights.len() - 1;
-        let ribs = super::ribs::all(&chains, heights[most]);
+        let last = heights[most] - heights[most.saturating_sub(1)];
+        let ribs = super::ribs::all(&chains, heights[most], last);
         let rows = ribs.iter().map(|ribs| if ribs.steps.is_empty() { 0 } else { most }).collect();
         let mut columns = Vec::new();
         for run in &chains.runs {

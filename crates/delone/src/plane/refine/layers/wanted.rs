@@ -48,7 +48,7 @@ pub struct Layers2 {
 }
 
 impl Layers2 {
-    /// So many rows along all of the border.
+    /// A number of rows along all of the border.
     pub fn new(first_height: f64, count: usize) -> Self {
         Self { first_height, count, growth: GROWTH, thickness: None, segments: None }
     }
