@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use delone::{
-    Ask as _, Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement,
-    RegionSeed2, Seeds2, Shapes2, TriangleId, Triangulation as _,
+    Ask as _, Constrained2, Crossings, Domains2, Error, Fill, Keep, Layers2, Reason, Refined2, Refinement,
+    RegionSeed2, Seeds2, SegmentId, Shapes2, TriangleId, Triangulation as _,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
@@ -36,6 +36,9 @@ struct Content {
     given: usize,
 }
 
+/// Boundary layers: the first height, the number of rows, growth, thickness, and segments by index.
+type LayerWish = (f64, usize, f64, Option<f64>, Option<Vec<usize>>);
+
 /// The rule for the inside, and the criteria of the mesh.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -58,6 +61,7 @@ pub struct Wishes<'py> {
     size: Option<Bound<'py, PyAny>>,
     /// An area for each triangle of a mesh: of the one that is refined again, or else of this one.
     max_areas: Option<PyReadonlyArray1<'py, f64>>,
+    layers: Option<LayerWish>,
     of: Option<Bound<'py, Constrained>>,
 }
 
@@ -75,6 +79,7 @@ struct Plan {
     keep: Keep,
     conforming: bool,
     smooth: usize,
+    layers: Option<Layers2>,
 }
 
 /// Why there is no mesh.
@@ -190,10 +195,16 @@ impl Mesh {
             let inside = |t: TriangleId| this.rows.get(t.index()).is_some_and(|&row| row >= 0);
             let (mut ends, mut origins) = (Vec::new(), Vec::new());
             for e in c.constraint_edges() {
-                if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
+                let sides = [e, c.mesh().twin(e)].map(|e| e.triangle());
+                if !sides.iter().any(|&t| inside(t)) {
                     continue;
                 }
                 let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < this.given);
+                // Lines and ribs of boundary layers are segments of their own.
+                let is_of_layers = sides.iter().any(|&t| this.refined.domains.is_layer(t));
+                if first.is_none() && is_of_layers && sides.iter().all(|&t| inside(t)) {
+                    continue;
+                }
                 let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
                 if first.is_some_and(|on| !on.is_forward) {
                     pair.reverse();
@@ -204,6 +215,20 @@ impl Mesh {
             (ends, origins)
         })?;
         Ok((table(py, 2, ends)?, PyArray1::from_vec(py, origins)))
+    }
+
+    /// Whether each triangle inside is of a boundary layer.
+    fn layers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let flags =
+            self.of(py, |this| this.inside.iter().map(|&t| this.refined.domains.is_layer(t)).collect())?;
+        Ok(PyArray1::from_vec(py, flags))
+    }
+
+    /// Triangles and vertices of boundary layers, the most rows, places on segments, and those with fewer rows.
+    #[getter]
+    fn layer_counts(&self) -> [usize; 5] {
+        let layers = &self.0.refined.report.layers;
+        [layers.triangles, layers.vertices, layers.rows, layers.places, layers.shortened]
     }
 
     /// Vertices added inside and on constraints.
@@ -324,6 +349,12 @@ impl<'py> Wishes<'py> {
             other => return Err(PyValueError::new_err(format!("nothing to keep is called {other}"))),
         };
         let Self { fill, min_angle, max_area, max_edge, edge, growth, max_vertices, .. } = self;
+        let layers = self.layers.map(|(height, count, growth, thickness, segments)| {
+            let mut layers = Layers2::new(height, count).growth(growth);
+            layers.thickness = thickness;
+            layers.segments = segments.map(|all| all.into_iter().map(SegmentId::new).collect());
+            layers
+        });
         let Self { conforming, smooth, .. } = self;
         let plan = Plan {
             fill,
@@ -337,6 +368,7 @@ impl<'py> Wishes<'py> {
             keep,
             conforming,
             smooth,
+            layers,
         };
         Ok((plan, self.size))
     }
@@ -384,6 +416,9 @@ impl Plan {
         }
         if let Some(count) = self.max_vertices {
             wanted = wanted.max_vertices(count);
+        }
+        if let Some(layers) = &self.layers {
+            wanted = wanted.layers(layers);
         }
         let refined = wanted.run(&mut made)?;
         let inside: Vec<TriangleId> = made.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();

@@ -41,7 +41,7 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
-from ._mesh import Mesh, MeshReport, MeshShapes, mesh
+from ._mesh import LayerReport, Layers, Mesh, MeshReport, MeshShapes, mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
 from ._periodic import Periodic
@@ -65,6 +65,8 @@ __all__ = [
     "CrossingError",
     "Delaunay",
     "Hints",
+    "LayerReport",
+    "Layers",
     "LinearInterpolator",
     "LinearNDInterpolator",
     "Mesh",

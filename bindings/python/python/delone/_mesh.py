@@ -45,6 +45,8 @@ class Wishes(Wanted):
     keep_concavities: bool
     #: An area for each triangle: of the mesh that is refined again, or of this triangulation.
     max_areas: NDArray[np.float64] | None
+    #: The first height, the number of rows, growth, thickness, and segments.
+    layers: tuple[float, int, float, float | None, list[int] | None] | None
     of: _delone.Constrained | None
 
 
@@ -62,6 +64,50 @@ class MeshShapes:
     quality_p5: float
     #: A ratio of areas that 5 percent of the pairs of neighbors exceed.
     step_p95: float
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Boundary layers of a mesh: rows of thin triangles along walls, as flows need them.
+
+    Around a corner of more than 240 degrees there is a fan. Where chosen segments end at another one, rows end on that one if it leaves at 50
+    to 130 degrees; else, and where there is no room, they end one by one.
+
+    Examples
+    --------
+    >>> import delone
+    >>> sides = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    >>> walls = delone.Layers(0.01, 5, growth=1.4, segments=[0, 2])
+    >>> made = delone.mesh([[0, 0], [6, 0], [6, 1], [0, 1]], sides, edge=0.2, layers=walls)
+    >>> made.report.layers.rows, made.report.layers.shortened
+    (5, 0)"""
+
+    #: The height of the first row.
+    first_height: float
+    #: The number of rows.
+    count: int = 5
+    #: How many times as high as the row before each row is.
+    growth: float = 1.2
+    #: The height of all rows together: fewer rows, if that comes nearer to it.
+    thickness: float | None = None
+    #: The segments, by their rows; all of the border, if there are none.
+    segments: ArrayLike | None = None
+
+
+@dataclass(frozen=True)
+class LayerReport:
+    """The boundary layers of a mesh."""
+
+    #: Their triangles.
+    triangles: int
+    #: Their points that are not on the chosen segments.
+    points: int
+    #: The largest number of rows anywhere.
+    rows: int
+    #: Points on the chosen segments, one for each side with layers.
+    places: int
+    #: How many of these have fewer rows than were asked for, because there is no room for more.
+    shortened: int
 
 
 @dataclass(frozen=True)
@@ -85,6 +131,8 @@ class MeshReport:
     #: for a point that would be needed, "cascade" where points would come nearer and nearer to each other, "budget" for
     #: `max_vertices`, "kept" for `keep`.
     reasons: tuple[str, ...]
+    #: Counts of boundary layers. Angles above are those of the other triangles.
+    layers: LayerReport
 
 
 def mesh(
@@ -103,6 +151,7 @@ def mesh(
     keep: str = "nothing",
     conforming: bool = False,
     smooth: int = 0,
+    layers: Layers | None = None,
     fill: str | None = None,
     crossings: str = "refuse",
     keep_concavities: bool = False,
@@ -150,6 +199,9 @@ def mesh(
         No point is inside of the diametral circle of a segment, so that all triangles are Delaunay.
     smooth : int
         Rounds of smoothing afterwards: new points move a little, and angles become larger. What was asked for still holds.
+    layers : Layers, optional
+        Rows of thin triangles along the border, or along segments that are chosen. What is asked of angles and sizes is asked of the other
+        triangles.
     fill : str, optional
         What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
         around. "nonzero": what segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what no
@@ -195,6 +247,7 @@ def mesh(
         "keep_concavities": concave,
         **_wanted(min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, len(given)),
         "max_areas": None,
+        "layers": None if layers is None else _layers(layers, len(ends)),
         "of": None,
     }
     split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
@@ -284,6 +337,11 @@ class Mesh:
         return self._once("attributes", lambda: np.append(self._recipe[2], np.nan)[self.regions])
 
     @property
+    def is_layer(self) -> NDArray[np.bool_]:
+        """Whether each triangle is of a boundary layer: (t,)."""
+        return self._once("is_layer", self._core.layers)
+
+    @property
     def segments(self) -> NDArray[np.int64]:
         """The constraint edges that triangles have, as indices of points, (k, 2), each once, and in the direction of the segment
         that it is on. The whole border is among them."""
@@ -333,7 +391,7 @@ class Mesh:
             order = np.argsort(rows)
             reasons = tuple(left[k][1] for k in order.tolist())
             counts = (np.array(angles, dtype=np.int64), np.array(sharpest, dtype=np.int64))
-            return MeshReport(*self._core.added, smallest, largest, *counts, rows[order], reasons)
+            return MeshReport(*self._core.added, smallest, largest, *counts, rows[order], reasons, LayerReport(*self._core.layer_counts))
 
         return self._once("report", make)
 
@@ -431,6 +489,7 @@ class Mesh:
                 min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, len(self.points)
             ),
             "max_areas": areas,
+            "layers": None,
             "of": None,
         }
         return Mesh._make(self, wishes, self._recipe[2])
@@ -446,22 +505,42 @@ class Mesh:
         return f"<delone.Mesh: {counts}>"
 
 
-def _flags(marked: ArrayLike, name: str, count: int) -> NDArray[np.bool_]:
+def _flags(marked: ArrayLike, name: str, count: int, what: str = "triangles") -> NDArray[np.bool_]:
     """A flag for each of so many, of flags or indices."""
     array = np.asarray(marked)
     if array.dtype == bool:
         if array.shape != (count,):
-            raise ValueError(f"{name} must have a flag for each of {count} triangles; its shape is {array.shape}")
+            raise ValueError(f"{name} must have a flag for each of {count} {what}; its shape is {array.shape}")
         return array
     if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
         raise TypeError(f"{name} must be flags or integers in a row, not {array.dtype} of the shape {array.shape}")
     rows = array.astype(np.int64)
     if rows.size and not -1 < rows.min() <= rows.max() < count:
         k = int(np.argmax((rows < 0) | (rows >= count)))
-        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} triangles")
+        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} {what}")
     flags = np.zeros(count, bool)
     flags[rows] = True
     return flags
+
+
+def _layers(layers: Any, segments: int) -> tuple[float, int, float, float | None, list[int] | None]:
+    """Boundary layers, checked."""
+    if not isinstance(layers, Layers):
+        raise TypeError(f"layers must be delone.Layers, not {layers!r}")
+    count = as_index(layers.count, "layers.count")
+    if not 1 <= count <= 1024:
+        raise ValueError(f"layers.count must be from 1 to 1024, not {count}")
+    growth = _number(layers.growth, "layers.growth")
+    if not 1 <= growth < np.inf:
+        raise ValueError(f"layers.growth must be at least 1 and finite, not {growth}")
+    height, thickness = (
+        None if value is None else float(_positive(np.array([_number(value, what)]), what, True)[0])
+        for value, what in ((layers.first_height, "layers.first_height"), (layers.thickness, "layers.thickness"))
+    )
+    if height is None:
+        raise TypeError("layers.first_height must be a number, not None")
+    chosen = None if layers.segments is None else np.flatnonzero(_flags(layers.segments, "layers.segments", segments, "segments"))
+    return height, count, growth, thickness, None if chosen is None else chosen.tolist()
 
 
 def _wanted(
