@@ -205,6 +205,7 @@ def _wishes(switches: Switches, fill: str) -> Wishes:
         "smooth": 0,
         "size": None,
         "max_areas": None,
+        "layers": None,
         "of": None,
     }
 

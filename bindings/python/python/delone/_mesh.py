@@ -70,8 +70,8 @@ class MeshShapes:
 class Layers:
     """Boundary layers of a mesh: rows of thin triangles along walls, as flows need them.
 
-    Around a corner of more than 240 degrees there is a fan. Where chosen segments end at another one, rows end on that one if it leaves at 50
-    to 130 degrees; else, and where there is no room, they end one by one.
+    Around a corner of more than 240 degrees there is a fan. Where chosen segments end at another one, rows end on that one if it
+    leaves at 50 to 130 degrees; else, and where there is no room, they end one by one.
 
     Examples
     --------
@@ -200,7 +200,7 @@ def mesh(
     smooth : int
         Rounds of smoothing afterwards: new points move a little, and angles become larger. What was asked for still holds.
     layers : Layers, optional
-        Rows of thin triangles along the border, or along segments that are chosen. What is asked of angles and sizes is asked of the other
+        Rows of thin triangles along the border, or along segments that are chosen. Angles and sizes are asked of the other
         triangles.
     fill : str, optional
         What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
@@ -391,7 +391,9 @@ class Mesh:
             order = np.argsort(rows)
             reasons = tuple(left[k][1] for k in order.tolist())
             counts = (np.array(angles, dtype=np.int64), np.array(sharpest, dtype=np.int64))
-            return MeshReport(*self._core.added, smallest, largest, *counts, rows[order], reasons, LayerReport(*self._core.layer_counts))
+            return MeshReport(
+                *self._core.added, smallest, largest, *counts, rows[order], reasons, LayerReport(*self._core.layer_counts)
+            )
 
         return self._once("report", make)
 

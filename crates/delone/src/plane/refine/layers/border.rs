@@ -3,11 +3,14 @@
 //! So the last line of the layers has edges as long as the mesh around it asks for. The distances are found in a copy, whose constraints are
 //! all divided; here only the chosen ones are, because other constraints may get the ends of rows.
 
+use delone_predicates::lexicographic;
+
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::mesh::Mesh2;
 use crate::plane::constrained::{Constrained2, Domains2};
 use crate::points::survey as bounds;
+use crate::sorting;
 
 use super::super::Refinement;
 use super::super::frontal::Frontal;
@@ -39,6 +42,10 @@ pub(super) fn chosen(c: &Constrained2, domains: &Domains2, wanted: &Layers2) -> 
     }
     ends.sort_unstable();
     ends.dedup();
+    // New vertices come in an order of geometry.
+    let order = |v: VertexId, w: VertexId| lexicographic(c.point(v), c.point(w));
+    ends.iter_mut().filter(|ends| order(ends[0], ends[1]).is_gt()).for_each(|ends| ends.reverse());
+    sorting::by(&mut ends, |p, q| order(p[0], q[0]).then_with(|| order(p[1], q[1])));
     Ok(ends.into_iter().map(|ends| Side { ends, at: Vec::new() }).collect())
 }
 

@@ -22,6 +22,8 @@ pub(super) struct Spot {
     pub(super) sides: [Option<usize>; 2],
     /// The other end of the constraint that is not chosen, where the chain ends.
     pub(super) beside: Option<Place>,
+    /// Whether that one may be split.
+    pub(super) may_follow: bool,
     /// The places on the border before and after.
     pub(super) beyond: [[f64; 2]; 2],
 }
@@ -81,7 +83,9 @@ impl Chains {
             let other = mesh.tail(previous);
             let beside = before[k].is_none().then_some(other);
             let beyond = [place(other), place(mesh.head(e))];
-            chains.spots.push(Spot { base, at: place(base), sides: [before[k], Some(k)], beside, beyond });
+            let may_follow = mesher.refusal(previous).is_none();
+            let sides = [before[k], Some(k)];
+            chains.spots.push(Spot { base, at: place(base), sides, beside, may_follow, beyond });
         }
         for (k, &e) in sides.iter().enumerate() {
             let [tail, head] = [mesh.tail(e), mesh.head(e)];
@@ -89,12 +93,12 @@ impl Chains {
             let end = side_of(next).unwrap_or_else(|| {
                 let other = mesh.head(next);
                 let beyond = [place(tail), place(other)];
-                let at = place(head);
                 chains.spots.push(Spot {
                     base: head,
-                    at,
+                    at: place(head),
                     sides: [Some(k), None],
                     beside: Some(other),
+                    may_follow: mesher.refusal(next).is_none(),
                     beyond,
                 });
                 chains.spots.len() - 1

@@ -85,7 +85,7 @@ fn following(spot: &Spot, [t, u]: [[f64; 2]; 2]) -> Option<Ribs> {
     let is_end = spot.sides[1].is_none();
     let sine = t[0] * u[1] - t[1] * u[0];
     let cosine = -dot(t, u);
-    if !spot.is_hollow() || cosine.abs() > FOLLOWED_COSINE {
+    if !spot.may_follow || !spot.is_hollow() || cosine.abs() > FOLLOWED_COSINE {
         return None;
     }
     let away = if is_end { u } else { [-t[0], -t[1]] };
