@@ -32,7 +32,7 @@ pub(super) fn follow(plan: &mut Plan, mesher: &mut Mesher) -> Vec<Vec<Place>> {
     let mut followed = vec![Vec::new(); plan.chains.spots.len()];
     // Rows may come from both ends of a constraint: how far they came, by the end that they started at and the other one.
     let mut reached: BTreeMap<[Place; 2], Place> = BTreeMap::new();
-    for spot in 0..plan.chains.spots.len() {
+    for (spot, along) in followed.iter_mut().enumerate() {
         let own = &plan.chains.spots[spot];
         let Some(end) = own.beside.filter(|_| plan.ribs[spot].follows) else { continue };
         let mut last = own.base;
@@ -44,7 +44,7 @@ pub(super) fn follow(plan: &mut Plan, mesher: &mut Mesher) -> Vec<Vec<Place>> {
                 plan.rows[spot] = row - 1;
                 break;
             };
-            followed[spot].push(v);
+            along.push(v);
             reached.insert([own.base, end], v);
             last = v;
         }
@@ -98,8 +98,8 @@ pub(super) fn build(
         let lines = (1..=low).map(|row| [of(column.tail, row), of(column.head, row)]);
         let top = [column.tail, column.head].map(|rib| of(rib, plan.rows[rib.0]));
         let last = (high > low).then_some(top);
-        let is_made = lines.chain(last).fold(true, |is_made, ends| join(c, ends) && is_made);
-        if !is_made || is_lost[column.tail.0] || is_lost[column.head.0] {
+        let missing = lines.chain(last).filter(|&ends| !join(c, ends)).count();
+        if missing > 0 || is_lost[column.tail.0] || is_lost[column.head.0] {
             failed.push(k);
         }
     }
