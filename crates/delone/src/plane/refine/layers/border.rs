@@ -17,6 +17,7 @@ use super::super::frontal::Frontal;
 use super::super::mesher::Mesher;
 use super::super::queue::Queue;
 use super::super::rules::Rules;
+use super::chains::Chains;
 use super::wanted::Layers2;
 
 /// A chosen constraint: its ends, and where it is divided from the first end to the second.
@@ -49,12 +50,16 @@ pub(super) fn chosen(c: &Constrained2, domains: &Domains2, wanted: &Layers2) -> 
     Ok(ends.into_iter().map(|ends| Side { ends, at: Vec::new() }).collect())
 }
 
-/// Finds where the chosen constraints are to be divided.
+/// The last line around a fan has edges so many times as long as all rows are high; with sectors from 30 to 50 degrees that is 0.5 to 0.8.
+const EDGE_OF_FAN: f64 = 0.75;
+
+/// Finds where the chosen constraints are to be divided, under rows of some height in all: at fans as finely as these are.
 pub(super) fn divide_sides(
     wanted: &Refinement,
     c: &Constrained2,
     domains: &Domains2,
     sides: &mut [Side],
+    height: f64,
 ) -> Result<(), Error> {
     let (mut copy, mut parts) = (c.clone(), domains.clone());
     let before = copy.begin_refinement(&mut parts);
@@ -62,7 +67,12 @@ pub(super) fn divide_sides(
     let layer = copy.layer();
     let bounds = bounds(&layer.points).0;
     let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &parts.origins);
-    Frontal::new(&mut mesher, &bounds, wanted.growth).only_divide()?;
+    let place = |v: VertexId| mesher.layer.mesh.place(v);
+    let whole = sides.iter().filter_map(|side| Some([place(side.ends[0])?, place(side.ends[1])?]));
+    let chains = Chains::of(&mesher, &whole.collect::<Vec<_>>());
+    let fans = chains.spots.iter().filter(|spot| spot.has_fan());
+    let limits = fans.map(|spot| (spot.base, EDGE_OF_FAN * height)).collect();
+    Frontal::new(&mut mesher, &bounds, wanted.growth).only_divide(limits)?;
     let done = mesher.finish();
     copy.end_refinement(&before, &done.new)?;
     for side in sides {

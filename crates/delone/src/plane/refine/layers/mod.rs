@@ -57,7 +57,8 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
         // Sides of the hull that are constraints only now.
         sides = border::chosen(c, &domains, layers)?;
     }
-    border::divide_sides(wanted, c, &domains, &mut sides)?;
+    let height = heights.last().copied().unwrap_or(0.0);
+    border::divide_sides(wanted, c, &domains, &mut sides, height)?;
     let before = c.begin_refinement(&mut domains);
     let rules = Rules::new(wanted, &domains, &before);
     let layer = c.layer();

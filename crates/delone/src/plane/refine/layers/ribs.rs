@@ -68,7 +68,7 @@ fn of(spot: &Spot, height: f64, spacing: f64) -> Ribs {
         return following(spot, [t, u]).unwrap_or_default();
     }
     let [n, m] = [t, u].map(|v| [-v[1], v[0]]);
-    if spot.is_bulge() && cosine < FAN_COSINE {
+    if spot.has_fan() {
         return Ribs { steps: fan([n, m], [t, u], height, spacing), ..Ribs::default() };
     }
     if 1.0 + cosine < NARROWEST_CORNER {
@@ -78,6 +78,14 @@ fn of(spot: &Spot, height: f64, spacing: f64) -> Ribs {
     // The same from either side.
     let lean = 0.5 * (dot(step, u) - dot(step, t));
     Ribs { steps: vec![step], lean: [lean; 2], follows: false }
+}
+
+impl Spot {
+    /// Whether there is a fan.
+    pub(super) fn has_fan(&self) -> bool {
+        let [t, u] = self.tangents();
+        self.beside.is_none() && self.is_bulge() && dot(t, u) < FAN_COSINE
+    }
 }
 
 /// The rib on the constraint that a chain ends at.
