@@ -165,6 +165,20 @@ impl Mesh {
         Ok((table(py, 2, ends)?, PyArray1::from_vec(py, origins)))
     }
 
+    /// Whether each triangle inside is of a boundary layer.
+    fn layers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let flags =
+            self.of(py, |this| this.inside.iter().map(|&t| this.refined.domains.is_layer(t)).collect())?;
+        Ok(PyArray1::from_vec(py, flags))
+    }
+
+    /// Triangles and vertices of boundary layers, the most rows, places on segments, and those with fewer rows.
+    #[getter]
+    fn layer_counts(&self) -> [usize; 5] {
+        let layers = &self.0.refined.report.layers;
+        [layers.triangles, layers.vertices, layers.rows, layers.places, layers.shortened]
+    }
+
     /// Vertices added inside and on constraints.
     #[getter]
     fn added(&self) -> (usize, usize) {

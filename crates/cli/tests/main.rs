@@ -18,6 +18,7 @@ mod folders;
 mod graph;
 mod helps;
 mod inputs;
+mod layers;
 mod lengths;
 mod lidar;
 mod limits;

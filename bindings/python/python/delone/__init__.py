@@ -41,7 +41,8 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
-from ._mesh import Mesh, MeshQuads, MeshReport, MeshShapes
+from ._layers import Layers
+from ._mesh import LayerReport, Mesh, MeshQuads, MeshReport, MeshShapes
 from ._meshing import mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
@@ -66,6 +67,8 @@ __all__ = [
     "CrossingError",
     "Delaunay",
     "Hints",
+    "LayerReport",
+    "Layers",
     "LinearInterpolator",
     "LinearNDInterpolator",
     "Mesh",

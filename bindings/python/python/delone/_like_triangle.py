@@ -191,6 +191,7 @@ def _wishes(switches: Switches, fill: str, refine_if: Test | None) -> Wishes:
         "smooth": 0,
         "size": None,
         "max_areas": None,
+        "layers": None,
         "of": None,
         "triangles": None,
         "coarsen": None,

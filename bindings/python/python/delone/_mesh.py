@@ -29,6 +29,22 @@ class MeshShapes:
     step_p95: float
 
 
+@dataclass(frozen=True)
+class LayerReport:
+    """The boundary layers of a mesh."""
+
+    #: Their triangles.
+    triangles: int
+    #: Their points that are not on the chosen segments.
+    points: int
+    #: The largest number of rows anywhere.
+    rows: int
+    #: Points on the chosen segments, one for each side with layers.
+    places: int
+    #: How many of these have fewer rows than were asked for, because there is no room for more.
+    shortened: int
+
+
 class MeshQuads(NamedTuple):
     """Quadrilaterals and triangles that cover a mesh."""
 
@@ -61,6 +77,8 @@ class MeshReport:
     #: for a point that would be needed, "cascade" where points would come nearer and nearer to each other, "budget" for
     #: `max_vertices`, "kept" for `keep`.
     reasons: tuple[str, ...]
+    #: Counts of boundary layers. Angles above are those of the other triangles.
+    layers: LayerReport
 
 
 class Mesh:
@@ -193,6 +211,11 @@ class Mesh:
         return not isinstance(self._recipe[0], Mesh) and len(self._recipe[0]) > 3
 
     @property
+    def is_layer(self) -> NDArray[np.bool_]:
+        """Whether each triangle is of a boundary layer: (t,)."""
+        return self._once("is_layer", self._core.layers)
+
+    @property
     def segments(self) -> NDArray[np.int64]:
         """The constraint edges that triangles have, as indices of points, (k, 2), each once, and in the direction of the segment
         that it is on. The whole border is among them."""
@@ -250,7 +273,8 @@ class Mesh:
             order = np.argsort(rows)
             reasons = tuple(left[k][1] for k in order.tolist())
             counts = (np.array(angles, dtype=np.int64), np.array(sharpest, dtype=np.int64))
-            return MeshReport(*self._core.added, smallest, largest, *counts, rows[order], reasons)
+            layers = LayerReport(*self._core.layer_counts)
+            return MeshReport(*self._core.added, smallest, largest, *counts, rows[order], reasons, layers)
 
         return self._once("report", make)
 
@@ -373,7 +397,7 @@ class Mesh:
             refine_if,
             len(self.points),
         )
-        wishes: Wishes = {**old, **wanted, "max_areas": areas, "of": None, "triangles": None, "coarsen": None}
+        wishes: Wishes = {**old, **wanted, "max_areas": areas, "of": None, "triangles": None, "coarsen": None, "layers": None}
         return Mesh._make(self, wishes, self._recipe[2])
 
     def coarsen(self, *, marked: ArrayLike, min_angle: float = 20.0) -> Mesh:
@@ -406,7 +430,7 @@ class Mesh:
         flags = flags_of(marked, "marked", len(self.triangles))
         old: Wishes = self._recipe[1]
         wishes: Wishes = {**old, "min_angle": float(min_angle), "max_areas": None, "of": None, "triangles": None}
-        wishes["coarsen"] = np.array(flags)
+        wishes["coarsen"], wishes["layers"] = np.array(flags), None
         return Mesh._make(self, wishes, self._recipe[2])
 
     def check(self) -> None:

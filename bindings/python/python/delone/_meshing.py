@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._layers import Layers, layers_of
 from ._mesh import Mesh
 from ._points import as_choice, as_flag, as_numbers
 from ._polygons import points_and_segments
@@ -30,6 +31,7 @@ def mesh(
     keep: str = "nothing",
     conforming: bool = False,
     smooth: int = 0,
+    layers: Layers | None = None,
     fill: str | None = None,
     crossings: str = "refuse",
     keep_concavities: bool = False,
@@ -87,6 +89,9 @@ def mesh(
         No point is inside of the diametral circle of a segment, so that all triangles are Delaunay.
     smooth : int
         Rounds of smoothing afterwards: new points move a little, and angles become larger. What was asked for still holds.
+    layers : Layers, optional
+        Rows of thin triangles along the border, or along segments that are chosen. Angles and sizes are asked of the other
+        triangles.
     fill : str, optional
         What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
         around. "nonzero": what segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what no
@@ -139,6 +144,8 @@ def mesh(
         corners = triangles_of(triangles, len(given))
         known = None if attributes is None else _attributes(attributes, len(corners))
         first = Mesh._of_triangles(given, ends, split, corners, known)
+        if layers is not None:
+            raise ValueError("layers are for points and segments: triangles that are given stay")
         again: Wishes = {**PLAIN, **wanted}
         return Mesh._make(first, again, first._recipe[2])
     if attributes is not None:
@@ -151,6 +158,7 @@ def mesh(
     wishes: Wishes = {**PLAIN, **wanted}
     wishes["fill"], wishes["holes"], wishes["regions"] = filled, seeds_of(holes), seeds
     wishes["keep_concavities"] = concave
+    wishes["layers"] = None if layers is None else layers_of(layers, len(ends))
     return Mesh._make((given, ends, split), wishes, of_regions)
 
 

@@ -44,6 +44,8 @@ class Wishes(Wanted):
     keep_concavities: bool
     #: An area for each triangle: of the mesh that is refined again, or of this triangulation.
     max_areas: NDArray[np.float64] | None
+    #: The first height, the number of rows, growth, thickness, and segments.
+    layers: tuple[float, int, float, float | None, list[int] | None] | None
     of: _delone.Constrained | None
     #: Triangles that stay until a vertex comes near.
     triangles: NDArray[np.int64] | None
@@ -55,19 +57,19 @@ FILLS = ("all", "even-odd", "nonzero", "seeds")
 _KEPT = ("nothing", "border", "constraints")
 
 
-def flags_of(marked: ArrayLike, name: str, count: int) -> NDArray[np.bool_]:
+def flags_of(marked: ArrayLike, name: str, count: int, what: str = "triangles") -> NDArray[np.bool_]:
     """A flag for each of so many, of flags or indices."""
     array = np.asarray(marked)
     if array.dtype == bool:
         if array.shape != (count,):
-            raise ValueError(f"{name} must have a flag for each of {count} triangles; its shape is {array.shape}")
+            raise ValueError(f"{name} must have a flag for each of {count} {what}; its shape is {array.shape}")
         return array
     if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
         raise TypeError(f"{name} must be flags or integers in a row, not {array.dtype} of the shape {array.shape}")
     rows = array.astype(np.int64)
     if rows.size and not -1 < rows.min() <= rows.max() < count:
         k = int(np.argmax((rows < 0) | (rows >= count)))
-        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} triangles")
+        raise IndexError(f"{name}[{k}] is {rows[k]}, and there are {count} {what}")
     flags = np.zeros(count, bool)
     flags[rows] = True
     return flags
@@ -110,11 +112,11 @@ def wanted_of(
         else:
             field = numbers_of(size, "size", count, finite=True)
     return {
-        "min_angle": _number(min_angle, "min_angle"),
+        "min_angle": number_of(min_angle, "min_angle"),
         "max_area": None if max_area is None else _bound(max_area, "max_area"),
         "max_edge": min(lengths, default=None),
         "edge": None if edge is None else _bound(edge, "edge"),
-        "growth": _number(growth, "growth"),
+        "growth": number_of(growth, "growth"),
         "max_vertices": most,
         "keep": as_choice(keep, _KEPT, "keep"),
         "conforming": as_flag(conforming, "conforming"),
@@ -124,7 +126,7 @@ def wanted_of(
     }
 
 
-def _number(value: Any, what: str) -> float:
+def number_of(value: Any, what: str) -> float:
     array = as_numbers(value, what)
     if array.ndim or array.dtype.kind == "b":
         raise TypeError(f"{what} must be a number, not {value!r}")
@@ -132,7 +134,7 @@ def _number(value: Any, what: str) -> float:
 
 
 def _bound(value: Any, what: str) -> float:
-    return float(_positive(np.array([_number(value, what)]), what)[0])
+    return float(positive(np.array([number_of(value, what)]), what)[0])
 
 
 def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDArray[np.float64]:
@@ -140,10 +142,10 @@ def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDAr
     array = as_numbers(values, what)
     if array.shape != (count,):
         raise ValueError(f"{what} must have the shape ({count},), one number each, not {array.shape}")
-    return _positive(np.array(array, dtype=np.float64), what, finite)
+    return positive(np.array(array, dtype=np.float64), what, finite)
 
 
-def _positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
+def positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
     wrong = ~(numbers > 0) | (np.isinf(numbers) if finite else False)
     if wrong.any():
         row = int(np.argmax(wrong))
@@ -203,4 +205,5 @@ PLAIN: Wishes = {
     "of": None,
     "triangles": None,
     "coarsen": None,
+    "layers": None,
 }

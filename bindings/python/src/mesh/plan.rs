@@ -1,8 +1,8 @@
-//! What is wanted of a mesh, with Python's objects and without them.
+//! The criteria of a mesh, with Python's objects and without them.
 
 use delone::{
-    Constrained2, Domains2, Error, Fill, Keep, Refinement, RegionSeed2, Seeds2, TriangleId,
-    Triangulation as _, VertexId,
+    Constrained2, Domains2, Error, Fill, Keep, Layers2, Refinement, RegionSeed2, Seeds2, SegmentId,
+    TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -15,6 +15,9 @@ use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
 use crate::sizes::Field;
 use crate::triangulation::coordinates;
+
+/// Boundary layers: the first height, the number of rows, growth, thickness, and segments by index.
+type LayerWish = (f64, usize, f64, Option<f64>, Option<Vec<usize>>);
 
 /// The rule for the inside, and the criteria of the mesh.
 #[derive(FromPyObject)]
@@ -38,6 +41,7 @@ pub struct Wishes<'py> {
     size: Option<Bound<'py, PyAny>>,
     /// An area for each triangle of a mesh: of the one that is refined again, or else of this one.
     max_areas: Option<PyReadonlyArray1<'py, f64>>,
+    layers: Option<LayerWish>,
     pub(super) of: Option<Bound<'py, Constrained>>,
     /// Corners of triangles that stay until a vertex comes near.
     triangles: Option<PyReadonlyArray2<'py, i64>>,
@@ -60,9 +64,10 @@ pub(super) struct Plan {
     conforming: bool,
     smooth: usize,
     triangles: Vec<[usize; 3]>,
+    layers: Option<Layers2>,
 }
 
-/// What Python or a field of numbers says by place.
+/// Answers of Python, or of a field of numbers, by place.
 pub(super) struct Said<'a> {
     pub(super) length: Option<&'a dyn Fn([f64; 2]) -> f64>,
     pub(super) refine_if: Option<&'a dyn Fn([[f64; 2]; 3], f64) -> bool>,
@@ -136,6 +141,12 @@ impl<'py> Wishes<'py> {
             None => Vec::new(),
         };
         let Self { fill, min_angle, max_area, max_edge, edge, growth, max_vertices, .. } = self;
+        let layers = self.layers.map(|(height, count, growth, thickness, segments)| {
+            let mut layers = Layers2::new(height, count).growth(growth);
+            layers.thickness = thickness;
+            layers.segments = segments.map(|all| all.into_iter().map(SegmentId::new).collect());
+            layers
+        });
         let Self { conforming, smooth, .. } = self;
         let plan = Plan {
             fill,
@@ -150,6 +161,7 @@ impl<'py> Wishes<'py> {
             conforming,
             smooth,
             triangles,
+            layers,
         };
         Ok((plan, self.size, self.refine_if))
     }
@@ -204,6 +216,9 @@ impl Plan {
         }
         if let Some(count) = self.max_vertices {
             wanted = wanted.max_vertices(count);
+        }
+        if let Some(layers) = &self.layers {
+            wanted = wanted.layers(layers);
         }
         let refined = wanted.run(&mut made)?;
         Ok(Mesh::content(made, refined, given))

@@ -102,6 +102,8 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
     pub(crate) smooth: Option<usize>,
     #[command(flatten)]
+    pub(crate) layers: LayerArgs,
+    #[command(flatten)]
     pub(crate) graph: GraphArgs,
     /// Keep the bays of the convex hull that no segments close, where seeds say what is inside.
     #[arg(long, help_heading = "Segments")]
@@ -140,6 +142,33 @@ pub(crate) struct MeshArgs {
     /// Meaning of colors in pictures [default: regions, heights or density].
     #[arg(long, value_name = "WHAT")]
     pub(crate) color: Option<ColorName>,
+}
+
+/// Boundary layers.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Boundary layers")]
+pub(crate) struct LayerArgs {
+    /// Height of the first row of thin triangles along the border, as flows need them along walls.
+    #[arg(long, allow_negative_numbers = true, value_name = "HEIGHT")]
+    pub(crate) layer_height: Option<f64>,
+    /// Rows [default: 5].
+    #[arg(long, value_name = "N", value_parser = count, requires = "layer_height")]
+    pub(crate) layer_count: Option<usize>,
+    /// How many times as high as the row before each row is [default: 1.2].
+    #[arg(long, allow_negative_numbers = true, value_name = "RATIO", requires = "layer_height")]
+    pub(crate) layer_growth: Option<f64>,
+    /// Height of all rows together: fewer rows, if that comes nearer to it.
+    #[arg(long, allow_negative_numbers = true, value_name = "HEIGHT", requires = "layer_height")]
+    pub(crate) layer_thickness: Option<f64>,
+    /// Markers of the segments with layers [default: all of the border].
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "MARKER",
+        value_delimiter = ',',
+        requires = "layer_height"
+    )]
+    pub(crate) layers: Vec<i64>,
 }
 
 /// Segments that may not be split.
@@ -187,6 +216,7 @@ fn mesh_help() -> String {
         "Examples:
   delone mesh plan.poly --min-angle 30 -o plan.msh -o plan.png --color angle
   delone mesh plate.poly --edge 0.5 --min-angle 30 -o plate.vtu
+  delone mesh channel.poly --edge 0.1 --layer-height 0.002 --layer-count 8 --layers 2,3 -o channel.su2
   delone mesh lakes.geojson --max-area 100 --check --stats stats.json -o lakes.vtu
   delone mesh coast.poly --size depth.csv --size-columns x,y,edge -o coast.1.node -o coast.1.ele
   delone mesh coast.1.node --refine coast.1.ele --areas coast.1.area -o coast.2.node -o coast.2.ele

@@ -2,6 +2,7 @@
 
 mod field;
 mod kept;
+mod layers;
 mod markers;
 mod names;
 mod naming;
@@ -67,7 +68,8 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let Material { mut graph, fill, again, .. } = material;
     let naming = Naming::of(args, &mut graph)?;
     let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
-    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), naming, &label, quiet)?;
+    let layers = &args.layers.layers;
+    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), (naming, layers), &label, quiet)?;
     stats.phase("build");
     let (c, report) = (&made.triangulation, &made.refined.report);
     if plan.traits.check {
@@ -130,7 +132,7 @@ impl Made {
         from: Constrained,
         plan: &Plan,
         (fill, sizes, again): (FillName, Option<&Sizes>, Option<Again>),
-        naming: Naming,
+        (naming, markers): (Naming, &[i64]),
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
@@ -157,6 +159,10 @@ impl Made {
         }
         if let Some(again) = &again {
             wanted = wanted.triangles(again.kept());
+        }
+        let layers = layers::on_segments(plan.layers.as_ref(), markers, &triangulation, &graph)?;
+        if let Some(layers) = &layers {
+            wanted = wanted.layers(layers);
         }
         let width = graph.attributes.width;
         let has_values = heights.is_some() || width > 0;

@@ -1,8 +1,8 @@
 //! Plans: the criteria of a mesh and the form of its files, by options or by Triangle's switches.
 
-use delone::{Constrained2, Keep, Refinement};
+use delone::{Constrained2, Keep, Layers2, Refinement};
 
-use crate::args::{CrossingsName, KeepName, MeshArgs, Switches};
+use crate::args::{CrossingsName, KeepName, LayerArgs, MeshArgs, Switches};
 use crate::message::{Failure, note};
 
 /// Whether something that files can hold is written.
@@ -25,6 +25,8 @@ pub(super) struct Plan {
     pub(super) growth: Option<f64>,
     pub(super) max_vertices: Option<usize>,
     pub(super) keep: Keep,
+    /// Boundary layers, on which segments ever.
+    pub(super) layers: Option<Layers2>,
     /// Rounds of smoothing.
     pub(super) smooth: usize,
     /// The treatment of segments that cross.
@@ -82,6 +84,7 @@ impl Plan {
                 Some(KeepName::Constraints) => Keep::Constraints,
                 Some(KeepName::Nothing) | None => Keep::Nothing,
             },
+            layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
             regions: Written::AsGiven,
@@ -129,6 +132,7 @@ impl Plan {
                 1 => Keep::Border,
                 _ => Keep::Constraints,
             },
+            layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Split),
             regions: match (switches.has('A'), switches.has('r')) {
@@ -153,7 +157,7 @@ impl Plan {
     }
 
     /// The criteria for the library; the inside, and sizes by place, come from files.
-    pub(super) fn refinement<'a>(&self) -> Refinement<'a> {
+    pub(super) fn refinement(&self) -> Refinement<'_> {
         let mut wanted = Refinement::new()
             .min_angle(self.min_angle)
             .smooth(self.smooth)
@@ -174,6 +178,21 @@ impl Plan {
         if let Some(count) = self.max_vertices {
             wanted = wanted.max_vertices(count);
         }
+        if let Some(layers) = &self.layers {
+            wanted = wanted.layers(layers);
+        }
         wanted
     }
+}
+
+/// The rows, if nothing is said.
+const ROWS: usize = 5;
+
+/// Boundary layers, if any are wanted.
+fn layers(args: &LayerArgs) -> Option<Layers2> {
+    let height = args.layer_height?;
+    let mut layers = Layers2::new(height, args.layer_count.unwrap_or(ROWS));
+    layers.growth = args.layer_growth.unwrap_or(layers.growth);
+    layers.thickness = args.layer_thickness;
+    Some(layers)
 }

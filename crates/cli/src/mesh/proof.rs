@@ -31,7 +31,7 @@ pub(super) fn flaw(c: &Constrained2, refined: &Refined2, seeds: &Seeds2, plan: &
         if !orient2d(p, q, r).is_positive() {
             return Some(format!("{} is not counter-clockwise", name()));
         }
-        if left.contains(&t) {
+        if left.contains(&t) || refined.domains.is_layer(t) {
             continue;
         }
         let smallest = [[p, q, r], [q, r, p], [r, p, q]].map(angle).into_iter().fold(f64::INFINITY, f64::min);

@@ -20,6 +20,14 @@ pub(super) fn count(report: &RefinementReport2, points: usize, stats: &mut Stats
     stats.set("largest_angle", report.largest_angle);
     stats.set("histogram", report.angles.to_vec());
     stats.set("smallest_angles", report.smallest_angles.to_vec());
+    let layers = &report.layers;
+    if layers.places > 0 {
+        let rows = json!({
+            "triangles": layers.triangles, "vertices": layers.vertices, "rows": layers.rows,
+            "places": layers.places, "shortened": layers.shortened,
+        });
+        stats.set("layers", rows);
+    }
     stats.set("left", Value::Object(Map::from_iter(left)));
 }
 
@@ -57,6 +65,16 @@ pub(super) fn left(report: &RefinementReport2) -> Option<String> {
 pub(super) fn summary(report: &RefinementReport2, stats: &Stats, quiet: bool) {
     if let Some(left) = left(report) {
         warn(quiet, left);
+    }
+    let layers = &report.layers;
+    if layers.shortened > 0 {
+        let [shortened, places] = [layers.shortened, layers.places].map(|count| grouped(count as u64));
+        warn(
+            quiet,
+            format!(
+                "{shortened} of {places} vertices of walls have fewer rows than asked for: there is no room"
+            ),
+        );
     }
     let [points, triangles, inside, on] = ["points", "simplices", "steiner_inside", "steiner_on_constraints"]
         .map(|name| grouped(stats.get(name).as_u64().unwrap_or_default()));

@@ -34,13 +34,17 @@ pub(crate) fn judge(before: &Constrained2, c: &Constrained2, refined: &Refined2,
     assert_eq!(c.vertex_count(), before.vertex_count() + report.inside + report.on_constraints, "{name}");
     let inside: Vec<_> = c.triangle_ids().filter(|&t| domains.is_inside(t)).collect();
     assert_eq!(report.triangles, inside.len(), "{name}");
+    let (layers, inside): (Vec<_>, Vec<_>) = inside.into_iter().partition(|&t| domains.is_layer(t));
+    assert_eq!(report.layers.triangles, layers.len(), "{name}");
+    let is_positive = |[p, q, r]: [[f64; 2]; 3]| exact::orient2d(p, q, r) > 0;
+    assert!(layers.iter().all(|&t| is_positive(corners(c, t))), "{name}: layers");
     assert_eq!(report.smallest_angles.iter().sum::<usize>(), inside.len(), "{name}");
     assert_eq!(report.angles.iter().sum::<usize>(), 3 * inside.len(), "{name}");
     // What is not said to be left is good, and what is left is bad: both exactly.
     let left: BTreeSet<_> = report.left.iter().map(|left| left.triangle).collect();
     assert_eq!(left.len(), report.left.len(), "{name}: twice");
     for &t in &inside {
-        assert!(exact::orient2d(corners(c, t)[0], corners(c, t)[1], corners(c, t)[2]) > 0, "{name}");
+        assert!(is_positive(corners(c, t)), "{name}");
         assert!(left.contains(&t) || has_angles(corners(c, t), degrees), "{name}: {:?}", corners(c, t));
     }
     // Near zero a cosine says too little.

@@ -7,5 +7,6 @@ mod ends;
 mod frontal;
 mod judge;
 mod kept;
+mod layers;
 mod nasty;
 mod quads;

@@ -115,6 +115,8 @@ pub struct Part2 {
     pub is_inside: bool,
     /// How often the segments that are borders wind around it, counter-clockwise less clockwise; 0 where nobody asked.
     pub winding: i32,
+    /// Whether it is a boundary layer ([`crate::Layers2`]): inside, and not refined again.
+    pub is_layer: bool,
     /// The region whose seed is in it, by index; or the polygon that it is in ([`Constrained2::claim_polygons`]).
     pub region: Option<usize>,
     /// The number of its triangles.
@@ -134,6 +136,8 @@ pub struct Domains2 {
     pub(in crate::plane) origins: Vec<Origin>,
     /// The segments that only keep triangles, if it was refined with such.
     pub(in crate::plane) kept: Vec<SegmentId>,
+    /// The lines and ribs of boundary layers.
+    pub(in crate::plane) layered: Vec<SegmentId>,
 }
 
 /// A region.
@@ -159,6 +163,11 @@ impl Domains2 {
     /// Whether a triangle is inside.
     pub fn is_inside(&self, t: TriangleId) -> bool {
         self.part(t).is_some_and(|part| self.parts[part].is_inside)
+    }
+
+    /// Whether a triangle is of a boundary layer; it is inside, too.
+    pub fn is_layer(&self, t: TriangleId) -> bool {
+        self.part(t).is_some_and(|part| self.parts[part].is_layer)
     }
 
     /// The region that a triangle is in, by the index of its seed or polygon.
@@ -326,7 +335,8 @@ impl Constrained2 {
                 continue;
             }
             let number = found.len() as u32;
-            let mut part = Part2 { is_inside: false, winding: 0, region: None, triangles: 0 };
+            let mut part =
+                Part2 { is_inside: false, winding: 0, is_layer: false, region: None, triangles: 0 };
             let mut least = [VertexId::GHOST; 3];
             of[first.index()] = number;
             pending.push(first);

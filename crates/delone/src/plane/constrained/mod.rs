@@ -29,6 +29,7 @@ mod domains;
 mod flips;
 mod force;
 mod kept;
+mod layered;
 mod locate;
 mod members;
 mod nearest;

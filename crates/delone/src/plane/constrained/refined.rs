@@ -30,10 +30,11 @@ pub(in crate::plane) struct Origin {
 pub(in crate::plane) struct Before {
     /// The vertices along the segments that are no single edge.
     chains: BTreeMap<SegmentId, Vec<VertexId>>,
-    /// For each domain, from 1 on, its part: first those that are inside.
+    /// For each domain, from 1 on, its part: first those that are refined, then boundary layers, then those outside.
     pub(in crate::plane) parts: Vec<usize>,
-    /// How many of them are.
+    /// How many of them are refined, and how many are inside.
     pub(in crate::plane) inside: usize,
+    pub(in crate::plane) with_layers: usize,
     /// How many points there are.
     pub(in crate::plane) given: usize,
     /// How many vertices may be added.
@@ -63,8 +64,12 @@ impl Constrained2 {
         let candidates = self.segments().filter(|_| self.has_chains);
         let chains = candidates.filter(longer).filter_map(with_chain).collect();
         let mut parts: Vec<usize> = (0..domains.parts().len()).collect();
-        sorting::by_key(&mut parts, |&part| !domains.parts()[part].is_inside);
-        let inside = parts.partition_point(|&part| domains.parts()[part].is_inside);
+        let kind = |&part: &usize| {
+            let part = &domains.parts()[part];
+            if part.is_inside { usize::from(part.is_layer) } else { 2 }
+        };
+        sorting::by_key(&mut parts, kind);
+        let [inside, with_layers] = [1, 2].map(|bound| parts.partition_point(|part| kind(part) < bound));
         let mut number = vec![0; parts.len()];
         parts.iter().enumerate().for_each(|(k, &part)| number[part] = k + 1);
         let triangles: Vec<TriangleId> = self.triangle_ids().collect();
@@ -76,7 +81,7 @@ impl Constrained2 {
         self.cover.take();
         self.graph.begin_bulk();
         let given = self.points().len();
-        Before { chains, inside, parts, given, room: MAX_POINTS - given }
+        Before { chains, inside, with_layers, parts, given, room: MAX_POINTS - given }
     }
 
     /// The triangulation itself.

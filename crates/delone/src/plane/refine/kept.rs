@@ -15,7 +15,7 @@ use crate::ids::{EdgeId, TriangleId};
 use crate::plane::constrained::{Constrained2, SegmentId, sorted};
 
 impl Refined2 {
-    /// Whether a constraint edge is there only to keep triangles ([`super::Refinement::triangles`]), and is no border.
+    /// Whether a constraint edge is there only to keep triangles ([`super::Refinement::triangles`]) or layers, and is no border.
     pub fn only_keeps(&self, c: &Constrained2, e: EdgeId) -> bool {
         let is_kept = |segment: SegmentId| self.kept.binary_search(&segment).is_ok();
         !self.kept.is_empty() && c.covering(e).iter().all(|one| is_kept(one.segment))

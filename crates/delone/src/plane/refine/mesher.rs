@@ -111,13 +111,7 @@ pub(super) struct Done {
 
 impl<'a> Mesher<'a> {
     /// For triangles in domains, all of whose borders are fixed. If they were refined before it is known where vertices come from.
-    pub(super) fn new(
-        layer: &'a mut Layer,
-        rules: &'a Rules<'a>,
-        queue: Queue,
-        origins: &[Origin],
-        kept: BTreeSet<[Place; 2]>,
-    ) -> Self {
+    pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue, origins: &[Origin]) -> Self {
         let scale = |p: Place| {
             let own = layer.points[p.index()];
             let others = layer.mesh.spokes(p).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
@@ -144,8 +138,13 @@ impl<'a> Mesher<'a> {
             tips: BTreeMap::new(),
             refused: BTreeMap::new(),
             left: Vec::new(),
-            kept,
+            kept: BTreeSet::new(),
         }
+    }
+
+    /// With fixed edges that only keep triangles.
+    pub(super) fn keeping(self, kept: BTreeSet<[Place; 2]>) -> Self {
+        Self { kept, ..self }
     }
 
     /// Forgets all new vertices, when the triangulation and what is known of its vertices are as they were.
@@ -346,7 +345,11 @@ impl<'a> Mesher<'a> {
     /// Why a constraint cannot be split, if it cannot.
     pub(super) fn refusal(&self, e: EdgeId) -> Option<Reason> {
         let mesh = &self.layer.mesh;
-        let inside = [e, mesh.twin(e)].map(|e| self.is_inside(e.triangle()));
+        let sides = [e, mesh.twin(e)].map(|e| e.triangle());
+        let inside = sides.map(|t| self.is_inside(t));
+        if sides.into_iter().any(|t| self.rules.is_layer(mesh.domain(t))) {
+            return Some(Reason::Kept);
+        }
         if self.rules.keeps(inside[0] && inside[1]) {
             return Some(Reason::Kept);
         }

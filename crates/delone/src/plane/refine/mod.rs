@@ -14,9 +14,11 @@
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
 mod coarsen;
+mod criteria;
 mod free;
 mod frontal;
 mod kept;
+mod layers;
 mod mesher;
 mod quads;
 mod queue;
@@ -28,8 +30,10 @@ mod smooth;
 mod split;
 mod survey;
 
+pub use criteria::{Keep, Refinement};
+pub use layers::Layers2;
 pub use quads::Quads2;
-pub use report::{Reason, RefinementReport2, Unrefined2};
+pub use report::{LayerReport2, Reason, RefinementReport2, Unrefined2};
 pub use shapes::Shapes2;
 
 use super::constrained::{Constrained2, Domains2, Fill, Origin, SegmentId};
@@ -39,56 +43,7 @@ use crate::points::survey as bounds;
 use frontal::Frontal;
 use mesher::{Done, Known, Mesher};
 use queue::{Queue, STEEP_ANGLE};
-use rules::{Field, Rules, Test};
-
-/// Which constraints may not be split.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Keep {
-    /// All may.
-    #[default]
-    Nothing,
-    /// Constraints with the mesh on one side only.
-    Border,
-    /// All.
-    Constraints,
-}
-
-/// The criteria of a mesh, and how it is made.
-///
-/// ```
-/// use delone::{Constrained2, Fill, Refinement};
-///
-/// // A square with a triangular hole.
-/// let points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [3, 1], [2, 3]];
-/// let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]];
-/// let mut c = Constrained2::from_parts(&points, &segments)?;
-/// let refined = Refinement::new().min_angle(30.0).max_area(0.1).fill(Fill::EvenOdd).run(&mut c)?;
-/// assert!(refined.report.left.is_empty() && refined.report.smallest_angle >= 30.0);
-/// let area: f64 = c.triangle_ids().filter(|&t| refined.domains.is_inside(t)).map(|t| c.area(t)).sum();
-/// assert!((area - 14.0).abs() < 1e-12);
-/// # Ok::<(), delone::Error>(())
-/// ```
-#[derive(Clone, Copy)]
-pub struct Refinement<'a> {
-    min_angle: f64,
-    max_area: Option<f64>,
-    max_edge: Option<f64>,
-    area_at: Option<Field<'a>>,
-    size_at: Option<Field<'a>>,
-    refine_if: Option<Test<'a>>,
-    edge: Option<f64>,
-    edge_at: Option<Field<'a>>,
-    growth: f64,
-    max_vertices: Option<usize>,
-    keep: Keep,
-    conforming: bool,
-    smoothing: usize,
-    stop: Option<&'a dyn Fn() -> bool>,
-    watch: Option<&'a dyn Fn(usize)>,
-    fill: Fill<'a>,
-    triangles: &'a [[VertexId; 3]],
-}
+use rules::Rules;
 
 /// A mesh that was refined.
 #[derive(Clone, Debug)]
@@ -100,32 +55,9 @@ pub struct Refined2 {
     pub domains: Domains2,
     /// Counts of what was done, and what could not be done.
     pub report: RefinementReport2,
-    /// The segments that are there only because triangles were given and stay ([`Refinement::triangles`]): they are no borders. A mesh that is
-    /// refined again, filled by [`Fill::Parts`], knows them.
+    /// The segments that are there only because triangles were given and stay ([`Refinement::triangles`]), and those of boundary layers: they are
+    /// no borders. A mesh that is refined again, filled by [`Fill::Parts`], knows them.
     pub kept: Vec<SegmentId>,
-}
-
-impl std::fmt::Debug for Refinement<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Refinement")
-            .field("min_angle", &self.min_angle)
-            .field("max_area", &self.max_area)
-            .field("max_edge", &self.max_edge)
-            .field("edge", &self.edge)
-            .field("growth", &self.growth)
-            .field("max_vertices", &self.max_vertices)
-            .field("keep", &self.keep)
-            .field("conforming", &self.conforming)
-            .field("smoothing", &self.smoothing)
-            .field("fill", &self.fill)
-            .finish_non_exhaustive()
-    }
-}
-
-impl Default for Refinement<'_> {
-    fn default() -> Self {
-        Self::new()
-    }
 }
 
 /// The origin of each vertex, for the next refinement.
@@ -136,250 +68,11 @@ fn origins(c: &Constrained2, done: &Done) -> Vec<Origin> {
     (0..c.points().len()).map(of).collect()
 }
 
-/// The default of [`Refinement::growth`]. On the twenty geometries of `compare/with_gmsh.py` 1.1 makes 1.55 times as many triangles in all,
-/// 1.3 0.87 times, 1.5 0.74 times; the largest steps there are 1.35, 1.5, 1.7 and 2.1 from one triangle to the next.
-const GROWTH: f64 = 1.2;
-
 /// Degrees, up to which refinement ends by itself in practice. At 34 meshes have some 1.2 times as many triangles as at 30; from 35 on
 /// there are inputs on which new vertices make new faults without end.
 const STEEPEST_THAT_ENDS: f64 = 34.0;
 
-impl<'a> Refinement<'a> {
-    /// All angles at least 20 degrees, in all of the hull.
-    pub fn new() -> Self {
-        Self {
-            min_angle: 20.0,
-            max_area: None,
-            max_edge: None,
-            area_at: None,
-            size_at: None,
-            refine_if: None,
-            edge: None,
-            edge_at: None,
-            growth: GROWTH,
-            max_vertices: None,
-            keep: Keep::Nothing,
-            conforming: false,
-            smoothing: 0,
-            stop: None,
-            watch: None,
-            fill: Fill::All,
-            triangles: &[],
-        }
-    }
-
-    /// No angle is to be smaller than so many degrees: 0, which asks for nothing, to less than 60. Up to 34 are reached wherever the
-    /// input lets them. More are tried: first 34, then what is asked for with at most as many new vertices as there are vertices by then,
-    /// if [`Self::max_vertices`] says nothing else. The report tells what is left.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [9, 0], [9, 1], [0, 1]], &[])?;
-    /// let made = Refinement::new().min_angle(30.0).run(&mut c)?;
-    /// assert!(made.report.smallest_angle >= 30.0);
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn min_angle(self, degrees: f64) -> Self {
-        Self { min_angle: degrees, ..self }
-    }
-
-    /// No triangle is to be larger. Regions may have smaller bounds of their own, see [`crate::RegionSeed2::max_area`].
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// Refinement::new().max_area(0.5).run(&mut c)?;
-    /// assert!(c.triangle_ids().all(|t| c.area(t) <= 0.5));
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn max_area(self, area: f64) -> Self {
-        Self { max_area: Some(area), ..self }
-    }
-
-    /// No triangle is to be larger than what is said for its centroid.
-    #[must_use]
-    pub fn max_area_at(self, area: &'a dyn Fn([f64; 2]) -> f64) -> Self {
-        Self { area_at: Some(area), ..self }
-    }
-
-    /// No edge is to be longer, constraints included.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// Refinement::new().max_edge(1.0).run(&mut c)?;
-    /// let length = |[a, b]: [[f64; 2]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
-    /// assert!(c.mesh().undirected_edges().all(|e| length(c.segment(e)) <= 1.0));
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn max_edge(self, length: f64) -> Self {
-        Self { max_edge: Some(length), ..self }
-    }
-
-    /// No edge of a triangle is to be longer than what is said for its centroid. Infinite is no bound.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// let graded = |[x, _]: [f64; 2]| 0.2 + 0.5 * x; // short edges on the left
-    /// Refinement::new().size(&graded).run(&mut c)?;
-    /// let left = c.vertices().filter(|&v| c.point(v)[0] < 2.0).count();
-    /// assert!(left > c.vertex_count() / 2);
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn size(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
-        Self { size_at: Some(length), ..self }
-    }
-
-    /// Triangles are refined as long as this says so, of the corners, counter-clockwise from the shortest side on, and of the area. If
-    /// [`Self::max_vertices`] says nothing, it ends at the larger of 2^21 new vertices and 64 a point; [`Reason::Budget`] tells.
-    #[must_use]
-    pub fn refine_if(self, is_to_be_refined: Test<'a>) -> Self {
-        Self { refine_if: Some(is_to_be_refined), ..self }
-    }
-
-    /// Edges are to have this length: triangles become nearly equilateral, and grow smoothly from where the input asks for short edges
-    /// to where it does not. The length is what is wanted and no bound: most edges have from 0.9 to 1.15 times it, fewer where constraints
-    /// are near. Bounds of angles, areas and edges hold as without it; where they ask for less, edges are shorter.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement, Shapes2};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// let made = Refinement::new().edge(0.5).min_angle(30.0).run(&mut c)?;
-    /// let shapes = Shapes2::of(&c, &made.domains);
-    /// assert!(shapes.quality_mean > 0.97 && made.report.smallest_angle > 30.0);
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn edge(self, length: f64) -> Self {
-        Self { edge: Some(length), ..self }
-    }
-
-    /// Edges are to have the length that is said for a place, which is asked wherever an edge may be. With [`Self::edge`] the lesser one
-    /// counts; infinite is no wish.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// let wanted = |[x, _]: [f64; 2]| 0.1 + 0.2 * x; // short edges on the left
-    /// Refinement::new().edge_at(&wanted).growth(1.3).run(&mut c)?;
-    /// assert!(c.vertices().filter(|&v| c.point(v)[0] < 1.0).count() > c.vertex_count() / 3);
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn edge_at(self, length: &'a dyn Fn([f64; 2]) -> f64) -> Self {
-        Self { edge_at: Some(length), ..self }
-    }
-
-    /// For meshes with a wanted length of edges: lengths grow by at most this factor from one edge to the next, from more than 1 on.
-    /// 1.2, if nothing is said: less makes more triangles that are better; more, fewer.
-    #[must_use]
-    pub fn growth(self, factor: f64) -> Self {
-        Self { growth: factor, ..self }
-    }
-
-    /// Sets the largest number of new vertices.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// let made = Refinement::new().max_area(0.001).max_vertices(10).run(&mut c)?;
-    /// assert_eq!(c.vertex_count(), 14);
-    /// assert!(!made.report.left.is_empty()); // what is not as it was to be
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn max_vertices(self, count: usize) -> Self {
-        Self { max_vertices: Some(count), ..self }
-    }
-
-    /// Constraints that may not be split.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Keep, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
-    /// Refinement::new().max_area(0.5).keep(Keep::Border).run(&mut c)?;
-    /// assert_eq!(c.hull_vertices().count(), 4); // no side was split
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn keep(self, keep: Keep) -> Self {
-        Self { keep, ..self }
-    }
-
-    /// No vertex inside of the diametral circle of a constraint, so that what is inside is a Delaunay triangulation (Ruppert).
-    #[must_use]
-    pub fn conforming(self, conforming: bool) -> Self {
-        Self { conforming, ..self }
-    }
-
-    /// Sets the number of rounds of smoothing afterwards (see `smooth` in the source). Angles become larger, and the criteria still
-    /// hold, because triangles that smoothing made too large are refined once more.
-    #[must_use]
-    pub fn smooth(self, rounds: usize) -> Self {
-        Self { smoothing: rounds, ..self }
-    }
-
-    /// Ends with [`Error::Stopped`] soon after this says so; it is asked now and then.
-    #[must_use]
-    pub fn stop_if(self, stop: &'a dyn Fn() -> bool) -> Self {
-        Self { stop: Some(stop), ..self }
-    }
-
-    /// Is told how many new vertices there are, as often as [`Self::stop_if`] is asked; where constraints are split it may be fewer
-    /// than before.
-    #[must_use]
-    pub fn watch(self, watch: &'a dyn Fn(usize)) -> Self {
-        Self { watch: Some(watch), ..self }
-    }
-
-    /// Sets the rule for what is inside. Where the hull is the border, it becomes a constraint.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Fill, Refinement};
-    ///
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[[0, 1], [1, 2], [2, 0]])?;
-    /// let made = Refinement::new().max_area(0.5).fill(Fill::EvenOdd).run(&mut c)?;
-    /// let inside = c.triangle_ids().filter(|&t| made.domains.is_inside(t));
-    /// assert!((inside.map(|t| c.area(t)).sum::<f64>() - 8.0).abs() < 1e-9); // the half that segments bound
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn fill(self, fill: Fill<'a>) -> Self {
-        Self { fill, ..self }
-    }
-
-    /// Triangles that are there first, whether they are Delaunay or not, and stay until a new vertex is to come into the circle of one: a
-    /// mesh from elsewhere is refined where it has to be, and is itself anywhere else. Edges that only keep triangles are in
-    /// [`Refined2::kept`]. Where lengths of edges are wanted ([`Self::edge`]), no triangles are kept.
-    ///
-    /// ```
-    /// use delone::{Constrained2, Refinement, VertexId};
-    ///
-    /// // Two triangles of a flat quadrilateral: the diagonal is the longer one.
-    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, -3], [8, 0], [4, 3]], &[])?;
-    /// let given = [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(VertexId::new));
-    /// let made = Refinement::new().triangles(&given).run(&mut c)?;
-    /// assert_eq!((c.triangle_count(), made.kept.len()), (2, 1));
-    /// # Ok::<(), delone::Error>(())
-    /// ```
-    #[must_use]
-    pub fn triangles(self, triangles: &'a [[VertexId; 3]]) -> Self {
-        Self { triangles, ..self }
-    }
-
+impl Refinement<'_> {
     /// Refines a triangulation. New vertices have the next ids, in the order in which they came; segments are split, and bend by
     /// a unit in the last place where a new vertex is not exactly on them, which is much for what is hardly wider than that.
     ///
@@ -402,6 +95,9 @@ impl<'a> Refinement<'a> {
     /// ```
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
+        if let Some(wanted) = self.layers {
+            return self.run_around(wanted, c);
+        }
         if self.min_angle <= STEEPEST_THAT_ENDS || self.max_vertices.is_some() {
             return self.run_to_the_end(c);
         }
@@ -413,6 +109,21 @@ impl<'a> Refinement<'a> {
         let mut refined = steeper.run_to_the_end(c)?;
         refined.report.inside += first.report.inside;
         refined.report.on_constraints += first.report.on_constraints;
+        Ok(refined)
+    }
+
+    /// Makes boundary layers, and refines what is around them.
+    fn run_around(&self, wanted: &Layers2, c: &mut Constrained2) -> Result<Refined2, Error> {
+        let grown = layers::grow(self, wanted, c)?;
+        let max_vertices =
+            self.max_vertices.map(|most| most.saturating_sub(grown.inside + grown.on_constraints));
+        let (layers, triangles, fill) = (None, &[][..], Fill::Parts(&grown.domains));
+        let rest = Refinement { layers, triangles, max_vertices, fill, ..*self };
+        let mut refined = rest.run(c)?;
+        let report = &mut refined.report;
+        report.inside += grown.inside;
+        report.on_constraints += grown.on_constraints;
+        report.layers = LayerReport2 { triangles: report.layers.triangles, ..grown.report };
         Ok(refined)
     }
 
@@ -437,7 +148,7 @@ impl<'a> Refinement<'a> {
         let layer = c.layer();
         let bounds = bounds(&layer.points).0;
         let queue = Queue::new(&bounds, self.min_angle > STEEP_ANGLE);
-        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins, kept);
+        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins).keeping(kept);
         let mut ran =
             if is_frontal { Frontal::new(&mut mesher, &bounds, self.growth).run() } else { mesher.run() };
         if self.smoothing > 0 && ran.is_ok() {
@@ -451,7 +162,9 @@ impl<'a> Refinement<'a> {
         c.note_kept(&mut domains, &done.kept)?;
         ran?;
         domains.origins = origins(c, &done);
-        Ok(Refined2 { kept: domains.kept.clone(), domains, report })
+        let mut kept = [&domains.kept[..], &domains.layered].concat();
+        kept.sort_unstable();
+        Ok(Refined2 { kept, domains, report })
     }
 
     /// Whether there may be as many triangles as the sizes ask for, which are the same everywhere.
@@ -482,6 +195,9 @@ impl<'a> Refinement<'a> {
         }
         if self.growth.is_nan() || self.growth <= 1.0 {
             return Err(Error::Parameter { name: "growth", value: self.growth, range: "more than 1" });
+        }
+        if let Some(layers) = self.layers {
+            layers.check()?;
         }
         let bounds = [("max_area", self.max_area), ("max_edge", self.max_edge), ("edge", self.edge)];
         match bounds

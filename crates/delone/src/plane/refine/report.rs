@@ -48,6 +48,22 @@ pub struct Unrefined2 {
 /// Degrees of a class of the histogram of angles.
 pub(super) const BIN: usize = 10;
 
+/// The boundary layers of a mesh ([`crate::Layers2`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LayerReport2 {
+    /// Their triangles.
+    pub triangles: usize,
+    /// Their vertices that are not on the chosen segments.
+    pub vertices: usize,
+    /// The largest number of rows anywhere.
+    pub rows: usize,
+    /// Vertices on the chosen segments, one for each side with layers.
+    pub places: usize,
+    /// The number of these vertices that have fewer rows than were asked for, because there is no room for more.
+    pub shortened: usize,
+}
+
 /// The work of a refinement, and what it could not do. Angles are in degrees.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -56,8 +72,10 @@ pub struct RefinementReport2 {
     pub inside: usize,
     /// New vertices on constraints.
     pub on_constraints: usize,
-    /// The triangles inside.
+    /// The triangles inside, those of boundary layers included.
     pub triangles: usize,
+    /// The boundary layers; angles below are those of the other triangles.
+    pub layers: LayerReport2,
     /// The smallest angle of a triangle inside, rounded; 0 if there is none.
     pub smallest_angle: f64,
     /// The largest angle of a triangle inside, rounded; 0 if there is none.

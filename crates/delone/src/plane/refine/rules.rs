@@ -1,6 +1,7 @@
 //! The criteria of a mesh, as numbers that are fast to compare.
 
 use std::cell::Cell;
+use std::ops::Range;
 
 use delone_predicates::lexicographic;
 
@@ -55,6 +56,8 @@ pub(super) struct Rules<'a> {
     length_at: Option<Field<'a>>,
     /// By domain, those inside from 1 on; there is nothing at 0.
     areas: Vec<f64>,
+    /// Domains of boundary layers.
+    layers: Range<usize>,
     /// Whether there is any bound of sizes, and whether one is asked for each place.
     has_sizes: bool,
     has_fields: bool,
@@ -103,6 +106,7 @@ impl<'a> Rules<'a> {
             keep: wanted.keep,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
+            layers: before.inside + 1..before.with_layers + 1,
             areas,
             has_fields,
             length: wanted.edge.unwrap_or(f64::INFINITY),
@@ -216,5 +220,11 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(super) fn is_inside(&self, domain: usize) -> bool {
         domain > 0 && domain < self.areas.len()
+    }
+
+    /// Whether a domain is a boundary layer.
+    #[inline]
+    pub(super) fn is_layer(&self, domain: usize) -> bool {
+        self.layers.contains(&domain)
     }
 }

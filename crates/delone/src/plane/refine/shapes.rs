@@ -3,6 +3,7 @@
 //! Cost: O(n), 16 bytes a triangle for a moment.
 
 use super::shape::squared;
+use crate::ids::TriangleId;
 use crate::plane::{Constrained2, Domains2};
 
 /// How nearly equilateral the triangles inside are, and how evenly they grow. Rounded.
@@ -21,7 +22,7 @@ pub struct Shapes2 {
 }
 
 impl Shapes2 {
-    /// Measures the triangles inside.
+    /// Measures the triangles inside, but for those of boundary layers.
     ///
     /// ```
     /// use delone::{Constrained2, Fill, Shapes2};
@@ -33,7 +34,8 @@ impl Shapes2 {
     /// ```
     pub fn of(c: &Constrained2, domains: &Domains2) -> Self {
         let mesh = c.mesh();
-        let inside = || c.triangle_ids().filter(|&t| domains.is_inside(t));
+        let counts = |&t: &TriangleId| domains.is_inside(t) && !domains.is_layer(t);
+        let inside = || c.triangle_ids().filter(counts);
         let quality = |t| {
             let [p, q, r] = mesh.corners(t).map(|v| c.point(v));
             4.0 * 3.0_f64.sqrt() * (c.area(t) / (squared(p, q) + squared(q, r) + squared(r, p)))
@@ -45,7 +47,7 @@ impl Shapes2 {
         // In the order of their sizes, so that the sum does not depend on the order of triangles.
         qualities.sort_unstable_by(f64::total_cmp);
         let edges = inside().flat_map(|t| [0, 1, 2].map(|k| t.edge(k)));
-        let inner = edges.filter(|&e| e < mesh.twin(e) && domains.is_inside(mesh.twin(e).triangle()));
+        let inner = edges.filter(|&e| e < mesh.twin(e) && counts(&mesh.twin(e).triangle()));
         let areas = inner.map(|e| [e, mesh.twin(e)].map(|e| c.area(e.triangle())));
         let mut steps: Vec<f64> = areas.map(|[p, q]| (p / q).max(q / p)).collect();
         let at = steps.len() * 95 / 100;

@@ -30,6 +30,7 @@ pub(super) fn report(
     let (mut largest, mut smallest) = (f64::NEG_INFINITY, f64::INFINITY);
     for t in layer.mesh.triangles() {
         let domain = layer.mesh.domain(t);
+        report.layers.triangles += usize::from(rules.is_layer(domain));
         if !rules.is_inside(domain) {
             continue;
         }
@@ -58,6 +59,7 @@ pub(super) fn report(
             report.left.push(Unrefined2 { triangle: t, reason: reason.copied().unwrap_or(Reason::Kept) });
         }
     }
+    report.triangles += report.layers.triangles;
     if largest > f64::NEG_INFINITY {
         let degrees = |cotangent: f64| 1f64.atan2(cotangent).to_degrees();
         (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));

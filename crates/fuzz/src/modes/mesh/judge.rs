@@ -209,10 +209,15 @@ impl Case<'_> {
         }
         self.judge_kept(refined)?;
         self.judge_area(refined)?;
-        let inside: Vec<TriangleId> = c.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
+        let inside = c.triangle_ids().filter(|&t| refined.domains.is_inside(t));
+        let (layers, inside): (Vec<TriangleId>, Vec<TriangleId>) =
+            inside.partition(|&t| refined.domains.is_layer(t));
+        if report.layers.triangles != layers.len() {
+            return Err(format!("{} triangles of layers, {:?}", layers.len(), report.layers));
+        }
         let left: BTreeMap<TriangleId, Reason> =
             report.left.iter().map(|left| (left.triangle, left.reason)).collect();
-        if report.triangles != inside.len() || report.left.len() != left.len() {
+        if report.triangles != inside.len() + layers.len() || report.left.len() != left.len() {
             return Err(format!("{} triangles, {} said, or left twice", inside.len(), report.triangles));
         }
         if let Some(t) = left.keys().find(|t| !inside.contains(t)) {
@@ -278,10 +283,13 @@ impl Case<'_> {
     fn judge_area(&self, refined: &Refined2) -> Judgement {
         let c = self.after;
         let domains = self.before.domains(&self.fill).map_err(|error| error.to_string())?;
-        let parts = |parts: &[delone::Part2]| {
-            parts.iter().map(|part| (part.is_inside, part.winding, part.region)).collect::<Vec<_>>()
-        };
-        if parts(domains.parts()) != parts(refined.domains.parts()) {
+        let kind = |part: &delone::Part2| (part.is_inside, part.winding, part.region);
+        let kinds = |parts: &[delone::Part2]| parts.iter().map(kind).collect::<Vec<_>>();
+        let (old_parts, new_parts) = (domains.parts(), refined.domains.parts());
+        let more = new_parts.get(old_parts.len()..).ok_or("fewer parts")?;
+        if kinds(old_parts) != kinds(&new_parts[..old_parts.len()])
+            || !more.iter().all(|part| part.is_layer && kinds(old_parts).contains(&kind(part)))
+        {
             return Err("other parts".to_owned());
         }
         // The vertices of before are here, too.
@@ -296,8 +304,11 @@ impl Case<'_> {
             minus(v, w).iter().map(|x| BigInt::from(x.magnitude().clone())).sum::<BigInt>()
         };
         let border: BigInt = c.constraint_edges().map(length).sum();
-        let twice = |c: &Constrained2, domains: &delone::Domains2, part: usize| -> BigInt {
-            let triangles = c.triangle_ids().filter(|&t| domains.part(t) == Some(part));
+        // Layers are parts of their own, of the same kind as the part around them.
+        let twice = |c: &Constrained2, domains: &delone::Domains2, k: usize| -> BigInt {
+            let own = kind(&old_parts[k]);
+            let is_own = |part: usize| kind(&domains.parts()[part]) == own;
+            let triangles = c.triangle_ids().filter(|&t| domains.part(t).is_some_and(is_own));
             triangles.map(|t| product(&exact, c.mesh().corners(t).map(|v| v.index()))).sum()
         };
         for k in 0..domains.parts().len() {
@@ -331,7 +342,9 @@ impl Case<'_> {
             Some(Reason::Precision) if !is_measurable(points) => Ok(()),
             Some(_) if is_certainly(-ROUNDED) => Err("is left for nothing".to_owned()),
             Some(Reason::Budget) if added < wish.most => Err(format!("only {added} of {}", wish.most)),
-            Some(Reason::Kept) if wish.keep == Keep::Nothing => Err("nothing is to be kept".to_owned()),
+            Some(Reason::Kept) if wish.keep == Keep::Nothing && refined.report.layers.triangles == 0 => {
+                Err("nothing is to be kept".to_owned())
+            }
             Some(Reason::InputAngle) if !self.is_forced(t, lines) => Err("no angle of the input".to_owned()),
             _ => Ok(()),
         }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use delone::{Constrained2, Error, Fill, Keep, Refined2, Refinement, RegionSeed2, Seeds2, VertexId};
+use delone::{Constrained2, Error, Fill, Keep, Layers2, Refined2, Refinement, RegionSeed2, Seeds2, VertexId};
 use delone_generators::Random;
 
 use crate::nasty::{self, once_in, pick};
@@ -42,6 +42,8 @@ pub(super) struct Wish {
     pub(super) smooth: usize,
     pub(super) most: usize,
     pub(super) stop: Option<usize>,
+    /// Boundary layers, and whether on all segments.
+    pub(super) layers: Option<(Layers2, bool)>,
     /// 0 all, 1 parity, 2 winding, 3 seeds.
     fill: usize,
     seeds: Seeds2,
@@ -80,7 +82,13 @@ impl Wish {
                 seeds.regions.push(RegionSeed2::new(at).attribute(1.0).max_area(max_area));
             }
         }
+        let height = if once_in(random, 3) { positive(0.05 * part(random)) } else { None };
+        let layers = height.map(|height| {
+            let growth = pick(random, &[1.0, 1.2, 1.5, 3.0]);
+            (Layers2::new(height, 1 + random.below(6)).growth(growth), once_in(random, 2))
+        });
         Self {
+            layers,
             min_angle: pick(random, &[0.0, 1.0, 15.0, 20.0, 25.0, 28.6, 30.0, 33.0, 34.0, 45.0]),
             max_area: area.and_then(|x| positive(0.3 * x * x)),
             max_edge: edge,
@@ -134,7 +142,8 @@ impl Wish {
     /// These criteria, with an angle that is easier.
     pub(super) fn easier(&self) -> Self {
         let (length, length_at) = (None, None);
-        Self { min_angle: 0.5 * self.min_angle, smooth: 0, stop: None, length, length_at, ..self.clone() }
+        let min_angle = 0.5 * self.min_angle;
+        Self { min_angle, smooth: 0, stop: None, length, length_at, layers: None, ..self.clone() }
     }
 
     /// Does it.
@@ -175,6 +184,12 @@ impl Wish {
         }
         if self.area.is_some() {
             how = how.max_area_at(&area);
+        }
+        let layers = self.layers.clone().map(|(layers, is_on_all)| {
+            if is_on_all { layers.on(c.segments().map(|(s, _)| s).collect()) } else { layers }
+        });
+        if let Some(layers) = &layers {
+            how = how.layers(layers);
         }
         how.run(c)
     }

@@ -64,6 +64,9 @@ impl Frontal<'_, '_> {
                     self.sizes.set(end, self.sizes.at(end).min(line.length));
                 }
             }
+            for &(p, size) in &self.limits {
+                self.sizes.set(p, self.sizes.at(p).min(size));
+            }
             self.limit_growth();
             let count = self.mesher.count;
             let is_settled = count.abs_diff(last) <= last / SETTLED_PART;

@@ -38,13 +38,15 @@ pub(super) struct Frontal<'m, 'a> {
     sizes: Sizes,
     /// The largest extent of all vertices along an axis.
     extent: f64,
+    /// Sizes at vertices of the input that have a reason of their own.
+    limits: Vec<(Place, f64)>,
 }
 
 impl<'m, 'a> Frontal<'m, 'a> {
     /// For lengths that differ between neighbors by a factor of at most `growth`.
     pub(super) fn new(mesher: &'m mut Mesher<'a>, bounds: &Bounds<2>, growth: f64) -> Self {
         let extent = (0..2).map(|k| bounds.high[k] - bounds.low[k]).fold(0.0, f64::max);
-        Self { mesher, sizes: Sizes::new(growth - 1.0), extent }
+        Self { mesher, sizes: Sizes::new(growth - 1.0), extent, limits: Vec::new() }
     }
 
     /// Divides constraints, fills what is inside, moves free vertices, and refines.
@@ -68,6 +70,12 @@ impl<'m, 'a> Frontal<'m, 'a> {
             self.mesher.run()?;
         }
         Ok(())
+    }
+
+    /// Divides constraints, and does no more; sizes at some vertices have limits.
+    pub(super) fn only_divide(mut self, limits: Vec<(Place, f64)>) -> Result<(), Error> {
+        self.limits = limits;
+        self.divide_constraints()
     }
 
     fn point(&self, p: Place) -> [f64; 2] {
