@@ -2,7 +2,7 @@
 
 mod beginning;
 mod contents;
-mod shared;
+mod readers;
 mod table;
 
 use std::fmt;

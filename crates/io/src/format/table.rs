@@ -4,7 +4,7 @@ use super::Contents::{
     Answers, Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points,
     Polyhedra, Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
 };
-use super::shared::{OF_GEOJSON, OF_MEDIT, OF_MSH, OF_POLY, OF_SU2, OF_VTK, OF_WKT};
+use super::readers::{OF_GEOJSON, OF_MEDIT, OF_MSH, OF_POLY, OF_SU2, OF_VTK, OF_WKT};
 use super::{Contents, Format, Readers};
 use crate::formats::{
     dxf, e57, ept, extxyz, flatgeobuf, geopackage, gpx, lammps, las, list, npy, obj, off, pairs, pcd, ply,
