@@ -46,7 +46,7 @@ KINDS_OF_SU2 = {"line": 3, "triangle": 5, "tetra": 10}
 
 
 def write_elements(file, corners, kind, cells, markers=None):
-    """Writes Medit's format by meshio, and SU2's as its manual says: meshio 5.3.5 does not write that. Lines are in groups by marker."""
+    """Writes Medit's format by meshio, and SU2's as its manual says, which meshio 5.3.5 does not. Lines are grouped by marker."""
     if file.suffix == ".mesh":
         data = {"medit:ref": [np.zeros(len(cells), int) if markers is None else np.array(markers)]}
         meshio.write(file, meshio.Mesh(corners, [(kind, cells)], cell_data=data), file_format="medit")

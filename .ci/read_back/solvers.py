@@ -4,6 +4,7 @@ Beside each file the program writes tables of Triangle, which tell what must be 
 """
 
 import collections
+import itertools
 
 import meshio
 import numpy as np
@@ -21,7 +22,7 @@ try:
 except ImportError:
     skfem = None
 
-# Two plates side by side, far from the origin, in decimals: the border is 1, the inlet 2, the outlet 3, and 9 is between the plates.
+# Two plates side by side, far from the origin, in decimals: the border is 1, the inlet 2, the outlet 3, and 9 is between them.
 CORNERS = [(0, 0), (1, 0.1), (2.2, 0), (2, 1), (1, 1.3), (0, 1)]
 SIDES = [(1, 2, 0), (2, 3, 0), (3, 4, 3), (4, 5, 0), (5, 6, 0), (6, 1, 2), (2, 5, 9)]
 NAMES = {2: "inlet", 3: "open sea", 9: "weld"}
@@ -93,7 +94,7 @@ def strings_of_sms(name):
         lines = {}
         for string in read.iter_node_strings():
             corners = string.nodes[::step]
-            lines |= {frozenset((places[a], places[b])): string.name for a, b in zip(corners, corners[1:], strict=False)}
+            lines |= {frozenset((places[a], places[b])): string.name for a, b in itertools.pairwise(corners)}
     return cells, lines
 
 
@@ -113,9 +114,10 @@ def grid_of_adcirc(name):
         for _ in range(number):
             head = next(lines)
             string = [int(next(lines)) for _ in range(int(head.split()[0]))]
-            assert all(side in directed and side[::-1] not in directed for side in zip(string, string[1:], strict=False)), "turned"
-            sides = zip(string, string[1:], strict=False)
-            boundaries |= {frozenset((places[a], places[b])): (what, head.split(" boundary ")[1].split(" ", 1)[1]) for a, b in sides}
+            sides = list(itertools.pairwise(string))
+            assert all(side in directed and side[::-1] not in directed for side in sides), "turned"
+            name = head.split(" boundary ")[1].split(" ", 1)[1]
+            boundaries |= {frozenset((places[a], places[b])): (what, name) for a, b in sides}
     assert next(lines, None) is None, "more follows"
     return cells, boundaries
 
@@ -219,7 +221,7 @@ def grids_and_faces():
 
 def second_order_of(kind):
     """Triangles with six nodes, the middles of whose sides are where they should be."""
-    run("mesh", "plates.poly", "--max-area", 0.1, "--second-order", "-o", f"second.{kind}", "-o", "second.node", "-o", "second.ele")
+    run("mesh", "plates.poly", "--max-area", 0.1, "--second-order", "-o", f"second.{kind}", "-o", "second.ele")
     count = len(np.loadtxt(FOLDER / "second.ele", skiprows=1))
     if kind == "2dm":
         with py2dm.Reader(FOLDER / "second.2dm") as read:

@@ -49,7 +49,7 @@ pub enum Error {
         /// Its number.
         number: String,
         /// The names.
-        names: [String; 2],
+        names: Box<[String; 2]>,
     },
     /// Two regions, or two boundaries, have one name.
     #[error(
@@ -61,7 +61,7 @@ pub enum Error {
         /// The name.
         name: String,
         /// Their numbers.
-        numbers: [String; 2],
+        numbers: Box<[String; 2]>,
     },
     /// The points of a file have no dimension of this name.
     #[error("its points have no {}, but {}", clipped(name), clipped(names))]

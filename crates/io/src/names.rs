@@ -114,14 +114,14 @@ impl<N: Number> List<N> {
         match self.place(number) {
             Ok(at) if self.0[at].1 == name => Ok(()),
             Ok(at) => {
-                let names = [self.0[at].1.clone(), name.to_owned()];
+                let names = Box::new([self.0[at].1.clone(), name.to_owned()]);
                 Err(Error::TwoNames { what, number: number.text(), names })
             }
             Err(at) => {
                 if let Some(same) = self.0.iter().find(|entry| entry.1 == name) {
                     let mut numbers = [same.0, number];
                     numbers.sort_by(N::order);
-                    let numbers = numbers.map(N::text);
+                    let numbers = Box::new(numbers.map(N::text));
                     return Err(Error::SharedName { what, name: name.to_owned(), numbers });
                 }
                 self.0.insert(at, (number, name.to_owned()));

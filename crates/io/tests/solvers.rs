@@ -203,8 +203,11 @@ fn sms_sees_materials_and_strings() {
     }
 }
 
+/// The places of nodes by the number of their set.
+type Sets = BTreeMap<i64, BTreeSet<Place>>;
+
 /// Parses bulk data of Nastran in fields: triangles by their corners, and sets of nodes.
-fn nastran(text: &str) -> (Seen, BTreeMap<i64, BTreeSet<Place>>, BTreeMap<usize, [f64; 2]>) {
+fn nastran(text: &str) -> (Seen, Sets, BTreeMap<usize, [f64; 2]>) {
     let number = |field: &str| -> f64 {
         let field = field.trim();
         let exponent = field.get(1..).and_then(|rest| rest.find(['+', '-'])).map(|at| at + 1);
@@ -231,7 +234,7 @@ fn nastran(text: &str) -> (Seen, BTreeMap<i64, BTreeSet<Place>>, BTreeMap<usize,
                 rest.as_bytes()[8..end].chunks(8).map(|field| String::from_utf8_lossy(field).into_owned()),
             );
             match lines.next_if(|next| next.starts_with('+')) {
-                Some(next) => rest = next.to_owned(),
+                Some(next) => next.clone_into(&mut rest),
                 None => break,
             }
         }

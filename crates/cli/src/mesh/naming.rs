@@ -88,15 +88,13 @@ impl Naming {
         let mut free = (FIRST_MARKER..).filter(|marker| !taken.contains(marker));
         for (marker, name) in markers.iter_mut().zip(of_segments).filter(|entry| *entry.0 == 0) {
             let Some(name) = name else { continue };
-            *marker = match of_names.get(&name) {
-                Some(&known) => known,
-                None => {
-                    let Some(new) = free.next() else { return Ok(()) };
-                    self.names.name_boundary(new, &name)?;
-                    of_names.insert(name, new);
-                    new
-                }
-            };
+            if let Some(&known) = of_names.get(&name) {
+                *marker = known;
+            } else if let Some(new) = free.next() {
+                self.names.name_boundary(new, &name)?;
+                of_names.insert(name, new);
+                *marker = new;
+            }
         }
         Ok(())
     }

@@ -66,7 +66,7 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
     let (mut outer, mut islands) = (Vec::new(), Vec::new());
     for ring in &rings {
         let list = if ring.is_outer { &mut outer } else { &mut islands };
-        split(ring, &group_of, &is_open, &names.sides, list);
+        split(ring, group_of, &is_open, &names.sides, list);
     }
     let all: Vec<Boundary> = outer.into_iter().chain(islands).collect();
     for (is_open, what, all_of) in [(true, "open", "open"), (false, "land", "flow")] {

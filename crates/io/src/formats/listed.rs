@@ -27,12 +27,11 @@ impl Listed {
                 "{format}: an element has corner {corner} from 0, but there are {count} points"
             )));
         }
-        if let Ok(row) = corners.try_into() {
-            self.lines.push((row, number));
-        } else if let Ok(row) = corners.try_into() {
-            self.triangles.push((row, number));
-        } else if let Ok(row) = corners.try_into() {
-            self.tetrahedra.push((row, number));
+        match *corners {
+            [a, b] => self.lines.push(([a, b], number)),
+            [a, b, c] => self.triangles.push(([a, b, c], number)),
+            [a, b, c, d] => self.tetrahedra.push(([a, b, c, d], number)),
+            _ => {}
         }
         Ok(())
     }
@@ -56,7 +55,7 @@ impl Listed {
         let has_markers = lines.iter().any(|line| line.1 != 0);
         let markers = has_markers.then(|| lines.iter().map(|line| line.1).collect());
         let is_border = vec![true; segments.len()];
-        Graph { is_border, segments, markers, names, ..Graph::of_points(self.cloud()) }
+        Graph { segments, is_border, markers, names, ..Graph::of_points(self.cloud()) }
     }
 
     /// The numbers of the triangles; nothing if all are 0.

@@ -55,20 +55,20 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
 /// Words of a file, one after another, with the lines that they are on.
 struct Words {
     lines: Lines,
-    words: std::vec::IntoIter<String>,
+    of_line: std::vec::IntoIter<String>,
     line: usize,
 }
 
 impl Words {
     fn next(&mut self) -> Result<Option<String>, Error> {
         loop {
-            if let Some(word) = self.words.next() {
+            if let Some(word) = self.of_line.next() {
                 return Ok(Some(word));
             }
             let Some(line) = self.lines.next()? else { return Ok(None) };
             self.line = line.number;
             let words: Vec<String> = line.text.split_whitespace().map(str::to_owned).collect();
-            self.words = words.into_iter();
+            self.of_line = words.into_iter();
         }
     }
 
@@ -84,7 +84,7 @@ impl Words {
 
 /// Reads a mesh.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
-    let mut words = Words { lines: Lines::new(source), words: Vec::new().into_iter(), line: 0 };
+    let mut words = Words { lines: Lines::new(source), of_line: Vec::new().into_iter(), line: 0 };
     if words.next()?.as_deref() != Some("MeshVersionFormatted") {
         return Err(Error::content("MESH: it does not begin with MeshVersionFormatted"));
     }

@@ -29,7 +29,7 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
     let names = elements.names(Rule::TEXT);
     let is_used = elements.is_used();
     let largest = elements.positions.len().max(elements.cell_count());
-    let card = if largest > SMALL_FIELD_NUMBER { Card::LONG_FIELDS } else { Card::SHORT_FIELDS };
+    let card = if largest > SMALL_FIELD_NUMBER { Card::OF_16_CHARACTERS } else { Card::OF_8_CHARACTERS };
     writeln!(out, "$ {} elements\nCEND\nBEGIN BULK", elements.cell_count())?;
     let mut rounded = Rounded::default();
     for (i, position) in elements.positions.iter().enumerate().filter(|&(i, _)| is_used[i]) {
@@ -73,8 +73,8 @@ struct Card {
 }
 
 impl Card {
-    const SHORT_FIELDS: Self = Self { sign: "", width: 8, fields: 8 };
-    const LONG_FIELDS: Self = Self { sign: "*", width: LARGE_FIELD, fields: 4 };
+    const OF_8_CHARACTERS: Self = Self { sign: "", width: 8, fields: 8 };
+    const OF_16_CHARACTERS: Self = Self { sign: "*", width: LARGE_FIELD, fields: 4 };
 
     fn write(&self, out: &mut dyn Write, name: &str, numbers: impl Iterator<Item = usize>) -> io::Result<()> {
         let (width, sign) = (self.width, self.sign);

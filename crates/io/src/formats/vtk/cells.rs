@@ -47,9 +47,29 @@ pub(super) struct Cells {
     kinds: Vec<u8>,
     ends: Vec<usize>,
     corners: Vec<u64>,
+    /// A number for each cell; nothing if none has one.
+    markers: Vec<i64>,
 }
 
 impl Cells {
+    pub(super) fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// Gives the cells from one on their markers, which are whole numbers, one for each; false if they are others.
+    pub(super) fn mark(&mut self, first: usize, numbers: &[f64]) -> bool {
+        let whole = |&number: &f64| {
+            (number.fract() == 0.0 && number.abs() < 2.0_f64.powi(53)).then_some(number as i64)
+        };
+        let markers: Option<Vec<i64>> = numbers.iter().map(whole).collect();
+        let Some(markers) = markers.filter(|markers| first + markers.len() == self.len()) else {
+            return false;
+        };
+        self.markers.resize(first, 0);
+        self.markers.extend(markers);
+        true
+    }
+
     /// Adds cells of a piece with the points `points`, from which its corners count.
     pub(super) fn add(
         &mut self,
@@ -93,10 +113,10 @@ impl Cells {
         })
     }
 
-    /// The segments of all lines.
-    pub(super) fn segments(&self) -> Vec<[usize; 2]> {
-        let mut segments = Vec::new();
-        for (family, points) in self.iter() {
+    /// The segments of all lines, and their markers, if any is other than 0.
+    pub(super) fn segments(&self) -> (Vec<[usize; 2]>, Option<Vec<i64>>) {
+        let (mut segments, mut markers) = (Vec::new(), Vec::new());
+        for (i, (family, points)) in self.iter().enumerate() {
             let chain = match family {
                 Family::Chain => points,
                 // Other nodes follow the ends.
@@ -104,8 +124,10 @@ impl Cells {
                 _ => continue,
             };
             segments.extend(chain.windows(2).map(|side| [side[0] as usize, side[1] as usize]));
+            markers.resize(segments.len(), self.markers.get(i).copied().unwrap_or_default());
         }
-        segments
+        let has_markers = markers.iter().any(|&marker| marker != 0);
+        (segments, has_markers.then_some(markers))
     }
 
     /// The simplices of N corners. Cells of fewer corners are passed over, and so are tetrahedra where triangles are wanted.

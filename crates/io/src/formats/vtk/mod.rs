@@ -1,5 +1,6 @@
 //! VTK's files: the legacy format (`.vtk`, in `legacy.rs`), and XML (`.vtu`, `.vtp`, in `xml.rs`). Points; and of the cells
-//! lines, triangles and tetrahedra, of any order by their corners. Lines are segments, and no borders.
+//! lines, triangles and tetrahedra, of any order by their corners. Lines are segments, and no borders;
+//! an array `marker` of the cells of XML has their markers.
 
 mod cells;
 mod legacy;
@@ -56,8 +57,8 @@ pub(crate) fn read_xml_simplices<const N: usize>(source: Box<dyn Source>) -> Res
 
 fn graph(read: Read, source: Box<dyn Source>) -> Result<Graph, Error> {
     let (cloud, cells) = read(source, true)?;
-    let segments = cells.segments();
-    Ok(Graph { is_border: vec![false; segments.len()], segments, ..Graph::of_points(cloud) })
+    let (segments, markers) = cells.segments();
+    Ok(Graph { is_border: vec![false; segments.len()], segments, markers, ..Graph::of_points(cloud) })
 }
 
 fn broken(what: impl std::fmt::Display) -> Error {

@@ -147,6 +147,19 @@ fn cells_of_all_pieces() {
     assert_eq!(read_xml_simplices::<3>(source(two)).expect("valid"), [[6, 5, 4]]);
     assert_eq!(read_xml_graph(source(two)).expect("valid").segments, [[0, 3], [7, 5]]);
     assert!(has_xml_lines(source(two)));
+    let marked = |numbers: &str| {
+        let array = format!(
+            "</Cells><CellData><DataArray type=\"Int64\" Name=\"marker\">{numbers}</DataArray></CellData>"
+        );
+        let text =
+            file(&[piece("10 3", "4 6", "0 1 2 3 0 3").replace("</Cells>", &array), piece("3", "2", "1 0")]);
+        let graph = read_xml_graph(source(text.as_bytes())).expect("valid");
+        (graph.markers, graph.cloud.losses)
+    };
+    assert_eq!(marked("0 -7"), (Some(vec![-7, 0]), Vec::new()));
+    assert_eq!(marked("5 0"), (None, Vec::new()));
+    let lost = vec!["values of points and cells are left out: marker".to_owned()];
+    assert_eq!((marked("0 1.5"), marked("1")), ((None, lost.clone()), (None, lost)));
     for (kinds, ends, corners, what) in [
         ("5", "3", "0 1 4", "corner 4"),
         ("5", "4", "0 1 2", "outside of the list"),

@@ -43,6 +43,7 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
                 file.points(array, &mut cloud)?;
             }
         }
+        let first_cell = cells.len();
         let values = piece.children().filter(|node| FIELDS.iter().any(|name| node.has_tag_name(*name)));
         let arrays = values.flat_map(|node| node.children()).filter(|node| node.has_tag_name("DataArray"));
         fields.extend(arrays.map(|array| array.attribute("Name").unwrap_or("without a name")));
@@ -53,6 +54,14 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
                     file.cells(list, kind, points.clone(), &mut cells)?;
                 }
             }
+            let mut of_cells = piece.children().filter(|node| node.has_tag_name("CellData"));
+            let array = of_cells
+                .find_map(|data| data.children().find(|array| array.attribute("Name") == Some(MARKER)));
+            if let Some(array) = array
+                && file.numbers(array).is_ok_and(|numbers| cells.mark(first_cell, &numbers))
+            {
+                fields.remove(MARKER);
+            }
         }
     }
     if !fields.is_empty() {
@@ -60,6 +69,9 @@ pub(super) fn read(mut source: Box<dyn Source>, with_cells: bool) -> Result<(Clo
     }
     Ok((cloud, cells))
 }
+
+/// The array of cells that has the markers of lines.
+const MARKER: &str = "marker";
 
 /// The elements of a piece whose arrays are values.
 const FIELDS: [&str; 2] = ["PointData", "CellData"];
