@@ -305,17 +305,26 @@ impl Case<'_> {
         };
         let border: BigInt = c.constraint_edges().map(length).sum();
         // Layers are parts of their own, of the same kind as the part around them.
-        let twice = |c: &Constrained2, domains: &delone::Domains2, k: usize| -> BigInt {
-            let own = kind(&old_parts[k]);
-            let is_own = |part: usize| kind(&domains.parts()[part]) == own;
-            let triangles = c.triangle_ids().filter(|&t| domains.part(t).is_some_and(is_own));
-            triangles.map(|t| product(&exact, c.mesh().corners(t).map(|v| v.index()))).sum()
+        let is_layered = !more.is_empty();
+        let twice = |c: &Constrained2, domains: &delone::Domains2| {
+            let mut areas = BTreeMap::new();
+            for t in c.triangle_ids() {
+                let Some(part) = domains.part(t) else { continue };
+                let own = (if is_layered { 0 } else { part }, kind(&domains.parts()[part]));
+                let area = product(&exact, c.mesh().corners(t).map(|v| v.index()));
+                *areas.entry(own).or_insert_with(BigInt::default) += area;
+            }
+            areas
         };
-        for k in 0..domains.parts().len() {
-            let [old, new] = [twice(self.before, &domains, k), twice(c, &refined.domains, k)];
-            let off = BigInt::from((&old - &new).magnitude().clone());
-            if off * one > &old * part + 2 * bend * &border * one {
-                return Err(format!("part {k} had {old} and has {new}"));
+        let (mut old, new) = (twice(self.before, &domains), twice(c, &refined.domains));
+        for key in new.keys() {
+            old.entry(*key).or_default();
+        }
+        for (key, old) in &old {
+            let new = new.get(key).cloned().unwrap_or_default();
+            let off = BigInt::from((old - &new).magnitude().clone());
+            if off * one > old * part + 2 * bend * &border * one {
+                return Err(format!("part {key:?} had {old} and has {new}"));
             }
         }
         Ok(())

@@ -70,8 +70,8 @@ pub(super) fn divide_sides(
     let place = |v: VertexId| mesher.layer.mesh.place(v);
     let whole = sides.iter().filter_map(|side| Some([place(side.ends[0])?, place(side.ends[1])?]));
     let chains = Chains::of(&mesher, &whole.collect::<Vec<_>>());
-    let fans = chains.spots.iter().filter(|spot| spot.has_fan());
-    let limits = fans.map(|spot| (spot.base, EDGE_OF_FAN * height)).collect();
+    let fans = chains.wedges.iter().filter(|wedge| wedge.has_fan());
+    let limits = fans.map(|wedge| (wedge.base, EDGE_OF_FAN * height)).collect();
     Frontal::new(&mut mesher, &bounds, wanted.growth).only_divide(limits)?;
     let done = mesher.finish();
     copy.end_refinement(&before, &done.new)?;

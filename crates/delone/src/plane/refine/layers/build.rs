@@ -15,7 +15,7 @@ use super::super::mesher::Mesher;
 use super::room::{Column, Plan};
 use crate::ids::Place;
 
-/// The vertices on each rib of each spot, the base first.
+/// The vertices on each rib of each wedge, the base first.
 pub(super) type Names = Vec<Vec<Vec<VertexId>>>;
 
 /// Layers that are made.
@@ -31,19 +31,19 @@ pub(super) struct Built {
 
 /// Puts the vertices of ribs on constraints that these follow, from the border on. Where one has no place, rows end.
 pub(super) fn follow(plan: &mut Plan, mesher: &mut Mesher) -> Vec<Vec<Place>> {
-    let mut followed = vec![Vec::new(); plan.chains.spots.len()];
+    let mut followed = vec![Vec::new(); plan.chains.wedges.len()];
     // Rows may come from both ends of a constraint: how far they came, by the end that they started at and the other one.
     let mut reached: BTreeMap<[Place; 2], Place> = BTreeMap::new();
-    for (spot, along) in followed.iter_mut().enumerate() {
-        let own = &plan.chains.spots[spot];
-        let Some(end) = own.beside.filter(|_| plan.ribs[spot].follows) else { continue };
+    for (wedge, along) in followed.iter_mut().enumerate() {
+        let own = &plan.chains.wedges[wedge];
+        let Some(end) = own.beside.filter(|_| plan.ribs[wedge].follows) else { continue };
         let mut last = own.base;
-        for row in 1..=plan.rows[spot] {
-            let at = plan.line_on((spot, 0), row);
+        for row in 1..=plan.rows[wedge] {
+            let at = plan.line_on((wedge, 0), row);
             let goal = reached.get(&[end, own.base]).copied().unwrap_or(end);
             let edge = mesher.layer.mesh.edge_between(last, goal);
             let Some(v) = edge.and_then(|e| mesher.divide(e, at)) else {
-                plan.rows[spot] = row - 1;
+                plan.rows[wedge] = row - 1;
                 break;
             };
             along.push(v);
@@ -63,29 +63,29 @@ pub(super) fn build(
 ) -> Result<Result<Built, Vec<usize>>, Error> {
     let mut names = Names::new();
     let (mut built, mut is_lost) = (Built::default(), vec![false; plan.rows.len()]);
-    for (spot, ribs) in plan.ribs.iter().enumerate() {
-        let rows = plan.rows[spot];
-        let mut of_spot = Vec::new();
+    for (wedge, ribs) in plan.ribs.iter().enumerate() {
+        let rows = plan.rows[wedge];
+        let mut of_wedge = Vec::new();
         for rib in 0..ribs.steps.len().max(1) {
-            let mut along = bases[spot].clone();
+            let mut along = bases[wedge].clone();
             along.truncate(rows + 1);
             for row in along.len()..=rows {
-                match c.insert(plan.line_on((spot, rib), row))? {
+                match c.insert(plan.line_on((wedge, rib), row))? {
                     Inserted::New(v) => {
-                        built.vertices.push((v, plan.chains.spacing(spot)));
+                        built.vertices.push((v, plan.chains.spacing(wedge)));
                         along.push(v);
                     }
                     Inserted::Existing(v) => {
-                        is_lost[spot] = true;
+                        is_lost[wedge] = true;
                         along.push(v);
                     }
                 }
             }
-            of_spot.push(along);
+            of_wedge.push(along);
         }
-        names.push(of_spot);
+        names.push(of_wedge);
     }
-    let of = |(spot, rib): (usize, usize), row: usize| names[spot][rib][row];
+    let of = |(wedge, rib): (usize, usize), row: usize| names[wedge][rib][row];
     let segments = &mut built.segments;
     let mut join = |c: &mut Constrained2, ends: [VertexId; 2]| {
         ends[0] == ends[1]
@@ -95,9 +95,9 @@ pub(super) fn build(
                 true
             })
     };
-    for (spot, ribs) in names.iter().enumerate() {
+    for (wedge, ribs) in names.iter().enumerate() {
         for along in ribs {
-            is_lost[spot] |= !along.windows(2).all(|pair| join(c, [pair[0], pair[1]]));
+            is_lost[wedge] |= !along.windows(2).all(|pair| join(c, [pair[0], pair[1]]));
         }
     }
     let mut failed = Vec::new();

@@ -15,7 +15,7 @@ use super::super::mesher::Mesher;
 
 /// A wedge of the mesh at a vertex, between sides or between a side and another constraint.
 #[derive(Clone, Debug)]
-pub(super) struct Spot {
+pub(super) struct Wedge {
     pub(super) base: Place,
     pub(super) at: [f64; 2],
     /// The sides before and after.
@@ -31,15 +31,15 @@ pub(super) struct Spot {
 /// A chosen side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
-    /// The spots at its tail and head.
-    pub(super) spots: [usize; 2],
+    /// The wedges at its tail and head.
+    pub(super) wedges: [usize; 2],
     pub(super) length: f64,
 }
 
 /// All chains.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Chains {
-    pub(super) spots: Vec<Spot>,
+    pub(super) wedges: Vec<Wedge>,
     pub(super) runs: Vec<Run>,
 }
 
@@ -76,7 +76,7 @@ impl Chains {
         let mut chains = Self::default();
         let around: Vec<[EdgeId; 2]> = sides.iter().map(|&e| neighbors(mesh, e)).collect();
         let before: Vec<Option<usize>> = around.iter().map(|around| side_of(around[1])).collect();
-        // A spot for each tail, then one for each head that is no tail of the next side.
+        // A wedge for each tail, then one for each head that is no tail of the next side.
         for (k, &e) in sides.iter().enumerate() {
             let base = mesh.tail(e);
             let previous = around[k][1];
@@ -85,7 +85,7 @@ impl Chains {
             let beyond = [place(other), place(mesh.head(e))];
             let may_follow = mesher.refusal(previous).is_none();
             let sides = [before[k], Some(k)];
-            chains.spots.push(Spot { base, at: place(base), sides, beside, may_follow, beyond });
+            chains.wedges.push(Wedge { base, at: place(base), sides, beside, may_follow, beyond });
         }
         for (k, &e) in sides.iter().enumerate() {
             let [tail, head] = [mesh.tail(e), mesh.head(e)];
@@ -93,7 +93,7 @@ impl Chains {
             let end = side_of(next).unwrap_or_else(|| {
                 let other = mesh.head(next);
                 let beyond = [place(tail), place(other)];
-                chains.spots.push(Spot {
+                chains.wedges.push(Wedge {
                     base: head,
                     at: place(head),
                     sides: [Some(k), None],
@@ -101,36 +101,36 @@ impl Chains {
                     may_follow: mesher.refusal(next).is_none(),
                     beyond,
                 });
-                chains.spots.len() - 1
+                chains.wedges.len() - 1
             });
             let length = super::length(place(tail), place(head));
-            chains.runs.push(Run { spots: [k, end], length });
+            chains.runs.push(Run { wedges: [k, end], length });
         }
         chains
     }
 
-    /// The mean length of the sides at a spot.
-    pub(super) fn spacing(&self, spot: usize) -> f64 {
-        match self.spots[spot].sides.map(|side| side.map(|side| self.runs[side].length)) {
+    /// The mean length of the sides at a wedge.
+    pub(super) fn spacing(&self, wedge: usize) -> f64 {
+        match self.wedges[wedge].sides.map(|side| side.map(|side| self.runs[side].length)) {
             [Some(one), Some(other)] => 0.5 * (one + other),
             [one, other] => one.or(other).unwrap_or(0.0),
         }
     }
 
-    /// The spot beyond a side at a spot, seen from there: the one before, or the one after.
-    pub(super) fn beyond(&self, spot: usize, is_after: bool) -> Option<(usize, f64)> {
-        let run = &self.runs[self.spots[spot].sides[usize::from(is_after)]?];
-        Some((run.spots[usize::from(is_after)], run.length))
+    /// The wedge beyond a side at a wedge, seen from there: the one before, or the one after.
+    pub(super) fn beyond(&self, wedge: usize, is_after: bool) -> Option<(usize, f64)> {
+        let run = &self.runs[self.wedges[wedge].sides[usize::from(is_after)]?];
+        Some((run.wedges[usize::from(is_after)], run.length))
     }
 }
 
-impl Spot {
-    /// The directions of the border towards the spot and away from it.
+impl Wedge {
+    /// The directions of the border towards the wedge and away from it.
     pub(super) fn tangents(&self) -> [[f64; 2]; 2] {
         [super::unit(self.beyond[0], self.at), super::unit(self.at, self.beyond[1])]
     }
 
-    /// Whether less than half a turn of the mesh is around the spot.
+    /// Whether less than half a turn of the mesh is around the wedge.
     pub(super) fn is_hollow(&self) -> bool {
         orient2d(self.beyond[0], self.at, self.beyond[1]).is_positive()
     }

@@ -80,11 +80,11 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
     rules.go_on(done.new.len())?;
     let bases: Vec<Vec<VertexId>> = plan
         .chains
-        .spots
+        .wedges
         .iter()
         .zip(&followed)
-        .map(|(spot, followed)| {
-            let places = std::iter::once(&spot.base).chain(followed);
+        .map(|(wedge, followed)| {
+            let places = std::iter::once(&wedge.base).chain(followed);
             places.map(|p| c.mesh().name(*p)).collect()
         })
         .collect();

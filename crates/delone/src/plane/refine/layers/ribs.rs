@@ -9,7 +9,7 @@
 //!
 //! Cost: O(1) for each rib, and for each vertex that a corner leans over.
 
-use super::chains::{Chains, Spot};
+use super::chains::{Chains, Wedge};
 
 /// The cosine of the turn from which on there is a fan: 60 degrees, that is 240 of the mesh.
 const FAN_COSINE: f64 = 0.5;
@@ -26,7 +26,7 @@ const FOLLOWED_COSINE: f64 = 0.643;
 /// Neighbors lean over a way so many times as long as a corner leans at full height.
 const LEANING_WAY: f64 = 4.0;
 
-/// The ribs of a spot.
+/// The ribs of a wedge.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ribs {
     /// From the one of the side before to the one of the side after; none where there are no rows.
@@ -41,17 +41,17 @@ fn dot(u: [f64; 2], v: [f64; 2]) -> f64 {
     u[0] * v[0] + u[1] * v[1]
 }
 
-/// The ribs of all spots, for rows so high together, and a last one so high.
+/// The ribs of all wedges, for rows so high together, and a last one so high.
 pub(super) fn all(chains: &Chains, height: f64, last: f64) -> Vec<Ribs> {
     let spacing = |k: usize| chains.spacing(k).max(last);
     let mut ribs: Vec<Ribs> =
-        chains.spots.iter().enumerate().map(|(k, spot)| of(spot, height, spacing(k))).collect();
+        chains.wedges.iter().enumerate().map(|(k, wedge)| of(wedge, height, spacing(k))).collect();
     let leans: Vec<f64> = (0..ribs.len()).map(|k| lean(chains, &ribs, k, height)).collect();
     for (k, lean) in leans.into_iter().enumerate() {
         if let [step] = &mut ribs[k].steps[..]
             && lean != 0.0
         {
-            let [t, u] = chains.spots[k].tangents();
+            let [t, u] = chains.wedges[k].tangents();
             let along = [t[0] + u[0], t[1] + u[1]];
             let part = lean / dot(along, along).sqrt();
             *step = [0, 1].map(|axis| step[axis] + part * along[axis]);
@@ -60,15 +60,15 @@ pub(super) fn all(chains: &Chains, height: f64, last: f64) -> Vec<Ribs> {
     ribs
 }
 
-/// The ribs of a spot, without regard to others.
-fn of(spot: &Spot, height: f64, spacing: f64) -> Ribs {
-    let [t, u] = spot.tangents();
+/// The ribs of a wedge, without regard to others.
+fn of(wedge: &Wedge, height: f64, spacing: f64) -> Ribs {
+    let [t, u] = wedge.tangents();
     let cosine = dot(t, u);
-    if spot.beside.is_some() {
-        return following(spot, [t, u]).unwrap_or_default();
+    if wedge.beside.is_some() {
+        return following(wedge, [t, u]).unwrap_or_default();
     }
     let [n, m] = [t, u].map(|v| [-v[1], v[0]]);
-    if spot.has_fan() {
+    if wedge.has_fan() {
         return Ribs { steps: fan([n, m], [t, u], height, spacing), ..Ribs::default() };
     }
     if 1.0 + cosine < NARROWEST_CORNER {
@@ -80,7 +80,7 @@ fn of(spot: &Spot, height: f64, spacing: f64) -> Ribs {
     Ribs { steps: vec![step], lean: [lean; 2], follows: false }
 }
 
-impl Spot {
+impl Wedge {
     /// Whether there is a fan.
     pub(super) fn has_fan(&self) -> bool {
         let [t, u] = self.tangents();
@@ -89,11 +89,11 @@ impl Spot {
 }
 
 /// The rib on the constraint that a chain ends at.
-fn following(spot: &Spot, [t, u]: [[f64; 2]; 2]) -> Option<Ribs> {
-    let is_end = spot.sides[1].is_none();
+fn following(wedge: &Wedge, [t, u]: [[f64; 2]; 2]) -> Option<Ribs> {
+    let is_end = wedge.sides[1].is_none();
     let sine = t[0] * u[1] - t[1] * u[0];
     let cosine = -dot(t, u);
-    if !spot.may_follow || !spot.is_hollow() || cosine.abs() > FOLLOWED_COSINE {
+    if !wedge.may_follow || !wedge.is_hollow() || cosine.abs() > FOLLOWED_COSINE {
         return None;
     }
     let away = if is_end { u } else { [-t[0], -t[1]] };
@@ -131,18 +131,18 @@ fn fan([n, m]: [[f64; 2]; 2], [t, u]: [[f64; 2]; 2], height: f64, spacing: f64) 
 /// The ribs of a fan, from which on it is not halved again.
 const MOST_OF_FAN: usize = 64;
 
-/// How much a spot leans along the border because its neighbors do.
-fn lean(chains: &Chains, ribs: &[Ribs], spot: usize, height: f64) -> f64 {
-    if ribs[spot].follows || is_corner(chains, ribs, spot) {
+/// How much a wedge leans along the border because its neighbors do.
+fn lean(chains: &Chains, ribs: &[Ribs], wedge: usize, height: f64) -> f64 {
+    if ribs[wedge].follows || is_corner(chains, ribs, wedge) {
         return 0.0;
     }
     let [from_before, from_after] = [false, true].map(|is_after| {
         let mut sum = 0.0;
-        let (mut at, mut way) = (spot, 0.0);
+        let (mut at, mut way) = (wedge, 0.0);
         // Corners lean over at most so much.
         while let Some((next, length)) = chains.beyond(at, is_after) {
             way += length;
-            if next == spot || way > LEANING_WAY * height * STEEPEST_LEAN {
+            if next == wedge || way > LEANING_WAY * height * STEEPEST_LEAN {
                 break;
             }
             let own = ribs[next].lean[usize::from(!is_after)];
@@ -165,18 +165,18 @@ fn lean(chains: &Chains, ribs: &[Ribs], spot: usize, height: f64) -> f64 {
 /// The largest lean that there is: of the narrowest corner.
 const STEEPEST_LEAN: f64 = 4.4;
 
-/// Whether leaning ends at a spot: at a corner, at a fan, and where chains or rows end.
-fn is_corner(chains: &Chains, ribs: &[Ribs], spot: usize) -> bool {
-    let [t, u] = chains.spots[spot].tangents();
-    ribs[spot].steps.len() != 1 || ribs[spot].follows || dot(t, u) < CORNER_COSINE
+/// Whether leaning ends at a wedge: at a corner, at a fan, and where chains or rows end.
+fn is_corner(chains: &Chains, ribs: &[Ribs], wedge: usize) -> bool {
+    let [t, u] = chains.wedges[wedge].tangents();
+    ribs[wedge].steps.len() != 1 || ribs[wedge].follows || dot(t, u) < CORNER_COSINE
 }
 
-/// The way from a spot to the next corner, as far as that is less than a bound.
-fn to_corner(chains: &Chains, ribs: &[Ribs], spot: usize, is_after: bool, bound: f64) -> f64 {
-    let (mut at, mut way) = (spot, 0.0);
+/// The way from a wedge to the next corner, as far as that is less than a bound.
+fn to_corner(chains: &Chains, ribs: &[Ribs], wedge: usize, is_after: bool, bound: f64) -> f64 {
+    let (mut at, mut way) = (wedge, 0.0);
     while let Some((next, length)) = chains.beyond(at, is_after) {
         way += length;
-        if way >= bound || next == spot || is_corner(chains, ribs, next) {
+        if way >= bound || next == wedge || is_corner(chains, ribs, next) {
             break;
         }
         at = next;

@@ -19,7 +19,7 @@ const BEFORE_COLUMNS: f64 = 0.3;
 /// The space before constraints without rows.
 const BEFORE_CONSTRAINTS: f64 = 0.6;
 
-/// A column between two ribs, each a spot with the index of its rib: the one on the left of who looks along the border comes last.
+/// A column between two ribs, each a wedge with the index of its rib: the one on the left of who looks along the border comes last.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) tail: (usize, usize),
@@ -34,7 +34,7 @@ pub(super) struct Plan {
     pub(super) columns: Vec<Column>,
     /// The distances of lines from the border, 0 first.
     pub(super) heights: Vec<f64>,
-    /// The rows at each spot.
+    /// The rows at each wedge.
     pub(super) rows: Vec<usize>,
 }
 
@@ -47,11 +47,11 @@ impl Plan {
         let rows = ribs.iter().map(|ribs| if ribs.steps.is_empty() { 0 } else { most }).collect();
         let mut columns = Vec::new();
         for run in &chains.runs {
-            let [tail, head] = run.spots;
+            let [tail, head] = run.wedges;
             columns.push(Column { tail: (tail, ribs[tail].steps.len().saturating_sub(1)), head: (head, 0) });
         }
-        for (spot, ribs) in ribs.iter().enumerate() {
-            let fan = (1..ribs.steps.len()).map(|rib| Column { tail: (spot, rib - 1), head: (spot, rib) });
+        for (wedge, ribs) in ribs.iter().enumerate() {
+            let fan = (1..ribs.steps.len()).map(|rib| Column { tail: (wedge, rib - 1), head: (wedge, rib) });
             columns.extend(fan);
         }
         let mut plan = Self { chains, ribs, columns, heights, rows };
@@ -60,9 +60,9 @@ impl Plan {
     }
 
     /// A place on a rib, at a distance from the border.
-    fn on(&self, (spot, rib): (usize, usize), height: f64) -> [f64; 2] {
-        let at = self.chains.spots[spot].at;
-        match self.ribs[spot].steps.get(rib) {
+    fn on(&self, (wedge, rib): (usize, usize), height: f64) -> [f64; 2] {
+        let at = self.chains.wedges[wedge].at;
+        match self.ribs[wedge].steps.get(rib) {
             Some(step) if height > 0.0 => [0, 1].map(|k| at[k] + height * step[k]),
             _ => at,
         }
@@ -114,17 +114,17 @@ impl Plan {
         [rows[0].min(rows[1]), rows[0].max(rows[1])]
     }
 
-    /// Takes rows until each spot has at most one more than its neighbors.
+    /// Takes rows until each wedge has at most one more than its neighbors.
     pub(super) fn even_out(&mut self) {
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         // From few rows to many.
-        order.sort_unstable_by_key(|&spot| self.rows[spot]);
+        order.sort_unstable_by_key(|&wedge| self.rows[wedge]);
         let mut rest: Vec<usize> = order.into_iter().rev().collect();
-        while let Some(spot) = rest.pop() {
+        while let Some(wedge) = rest.pop() {
             for is_after in [false, true] {
-                let Some((next, _)) = self.chains.beyond(spot, is_after) else { continue };
-                if self.rows[next] > self.rows[spot] + 1 {
-                    self.rows[next] = self.rows[spot] + 1;
+                let Some((next, _)) = self.chains.beyond(wedge, is_after) else { continue };
+                if self.rows[next] > self.rows[wedge] + 1 {
+                    self.rows[next] = self.rows[wedge] + 1;
                     rest.push(next);
                 }
             }
@@ -133,11 +133,11 @@ impl Plan {
 
     /// Takes a row from the ribs of some columns.
     pub(super) fn take_from(&mut self, columns: &[usize]) {
-        let mut spots: Vec<usize> =
+        let mut wedges: Vec<usize> =
             columns.iter().flat_map(|&k| [self.columns[k].tail.0, self.columns[k].head.0]).collect();
-        spots.sort_unstable();
-        spots.dedup();
-        spots.into_iter().for_each(|spot| self.rows[spot] = self.rows[spot].saturating_sub(1));
+        wedges.sort_unstable();
+        wedges.dedup();
+        wedges.into_iter().for_each(|wedge| self.rows[wedge] = self.rows[wedge].saturating_sub(1));
         self.even_out();
     }
 
@@ -198,30 +198,30 @@ impl Plan {
     fn are_neighbors(&self, k: usize, l: usize) -> bool {
         let bases = |k: usize| {
             let column = &self.columns[k];
-            [column.tail.0, column.head.0].map(|spot| self.chains.spots[spot].base)
+            [column.tail.0, column.head.0].map(|wedge| self.chains.wedges[wedge].base)
         };
         bases(k).iter().any(|base| bases(l).contains(base))
     }
 
     /// Whether ribs on a constraint end before it does, with space.
     fn is_within_followed(&self, column: &Column) -> bool {
-        [column.tail, column.head].into_iter().all(|(spot, rib)| {
-            let own = &self.chains.spots[spot];
-            if !self.ribs[spot].follows || self.rows[spot] == 0 {
+        [column.tail, column.head].into_iter().all(|(wedge, rib)| {
+            let own = &self.chains.wedges[wedge];
+            if !self.ribs[wedge].follows || self.rows[wedge] == 0 {
                 return true;
             }
             let end = own.beyond[usize::from(own.sides[1].is_none())];
-            let high = self.heights[self.rows[spot]] + BEFORE_CONSTRAINTS * self.chains.spacing(spot);
-            super::length(own.at, self.on((spot, rib), high)) < super::length(own.at, end)
+            let high = self.heights[self.rows[wedge]] + BEFORE_CONSTRAINTS * self.chains.spacing(wedge);
+            super::length(own.at, self.on((wedge, rib), high)) < super::length(own.at, end)
         })
     }
 
     /// Whether a polygon of a column meets constraints or vertices.
     fn meets(&self, column: &Column, polygon: &[[f64; 2]], obstacles: &Obstacles) -> bool {
-        let base = [column.tail.0, column.head.0].map(|spot| self.chains.spots[spot].base);
-        let followed = [column.tail.0, column.head.0].map(|spot| {
-            let own = &self.chains.spots[spot];
-            own.beside.filter(|_| self.ribs[spot].follows && self.rows[spot] > 0).map(|end| [own.base, end])
+        let base = [column.tail.0, column.head.0].map(|wedge| self.chains.wedges[wedge].base);
+        let followed = [column.tail.0, column.head.0].map(|wedge| {
+            let own = &self.chains.wedges[wedge];
+            own.beside.filter(|_| self.ribs[wedge].follows && self.rows[wedge] > 0).map(|end| [own.base, end])
         });
         let is_own = |[v, w]: [Place; 2]| {
             let all = followed.iter().flatten().chain([&base]);
