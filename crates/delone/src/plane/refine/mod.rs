@@ -118,7 +118,7 @@ impl Refinement<'_> {
         let max_vertices =
             self.max_vertices.map(|most| most.saturating_sub(grown.inside + grown.on_constraints));
         let (layers, triangles, fill) = (None, &[][..], Fill::Parts(&grown.domains));
-        let rest = Refinement { layers, triangles, max_vertices, fill, ..*self };
+        let rest = Refinement { max_vertices, layers, fill, triangles, ..*self };
         let mut refined = rest.run(c)?;
         let report = &mut refined.report;
         report.inside += grown.inside;
@@ -164,7 +164,7 @@ impl Refinement<'_> {
         domains.origins = origins(c, &done);
         let mut kept = [&domains.kept[..], &domains.layered].concat();
         kept.sort_unstable();
-        Ok(Refined2 { kept, domains, report })
+        Ok(Refined2 { domains, report, kept })
     }
 
     /// Whether there may be as many triangles as the sizes ask for, which are the same everywhere.
