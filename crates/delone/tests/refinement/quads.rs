@@ -85,7 +85,7 @@ fn pairs_are_a_function_of_the_input() {
     for _ in 0..4 {
         let mut order: Vec<usize> = (0..5).collect();
         random.shuffle(&mut order);
-        let mut rank = vec![0; 5];
+        let mut rank = [0; 5];
         order.iter().enumerate().for_each(|(new, &old)| rank[old] = new);
         let moved: Points = order.iter().map(|&old| corners[old]).collect();
         let mut renamed: Segments = sides.iter().map(|s| s.map(|v| rank[v])).collect();
