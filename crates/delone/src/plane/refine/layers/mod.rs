@@ -71,12 +71,13 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
     let pieces: Vec<_> = sides.iter().flat_map(|side| border::put_on(&mut mesher, side)).collect();
     let chains = Chains::of(&mesher, &pieces);
     let mut plan = Plan::new(chains, heights);
-    plan.fit(&mesher, rules.most().saturating_sub(mesher.count));
+    let fitted = plan.fit(&mesher, rules.most().saturating_sub(mesher.count));
     let followed = build::follow(&mut plan, &mut mesher);
     let done = mesher.finish();
     let added = c.end_refinement(&before, &done.new)?;
     domains = c.domains_of_tags(&before, domains);
     domains.origins = origins(c, &done);
+    fitted?;
     rules.go_on(done.new.len())?;
     let bases: Vec<Vec<VertexId>> = plan
         .chains

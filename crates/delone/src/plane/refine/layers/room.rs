@@ -6,6 +6,7 @@
 //!
 //! Cost: O(n log n) for n columns and constraints, as many times as rows are lost at one place.
 
+use crate::error::Error;
 use crate::ids::Place;
 
 use super::super::mesher::Mesher;
@@ -142,9 +143,10 @@ impl Plan {
     }
 
     /// Takes rows until all have room, and there are at most so many vertices.
-    pub(super) fn fit(&mut self, mesher: &Mesher, most: usize) {
+    pub(super) fn fit(&mut self, mesher: &Mesher, most: usize) -> Result<(), Error> {
         let obstacles = Obstacles::of(mesher);
         loop {
+            mesher.rules.go_on(mesher.count)?;
             let narrow = self.narrow(&obstacles);
             if narrow.is_empty() {
                 break;
@@ -155,6 +157,7 @@ impl Plan {
             let limit = self.rows.iter().copied().max().unwrap_or(0).saturating_sub(1);
             self.rows.iter_mut().for_each(|rows| *rows = (*rows).min(limit));
         }
+        Ok(())
     }
 
     fn vertex_count(&self) -> usize {
