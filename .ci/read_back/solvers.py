@@ -219,6 +219,70 @@ def grids_and_faces():
     triangles_of("ply")
 
 
+def quads_of(kind):
+    """Quadrilaterals: each is two of the triangles that there are without them, all are there once, and sides stay as they are."""
+    cells, lines = wanted("msh")
+    run("mesh", "plates.poly", "--max-area", 0.05, "--quads", "-o", f"quads.{kind}")
+    if kind == "2dm":
+        with py2dm.Reader(FOLDER / "quads.2dm") as read:
+            places = {node.id: place(node.pos) for node in read.iter_nodes()}
+            found = [([places[i] for i in element.nodes], element.materials[0]) for element in read.iter_elements()]
+    else:
+        mesh = by_meshio(f"quads.{kind}")
+        # Abaqus has sets in the place of numbers.
+        data = {"msh": "gmsh:physical", "mesh": "medit:ref", "bdf": "nastran:ref", "vtu": "region"}.get(kind)
+        blocks = [block.data for block in mesh.cells if block.type in ("triangle", "quad")]
+        if kind == "inp":
+            sets = {number: mesh.cell_sets[name] for number, name in ((1, "steel"), (2, "soft_wood"))}
+            of = [next(n for n, parts in sets.items() if len(parts[k])) for k, block in enumerate(mesh.cells) if block.type != "line"]
+            numbers = [np.full(len(block), n) for block, n in zip(blocks, of, strict=True)]
+        elif kind == "su2":
+            numbers = [np.zeros(len(block)) for block in blocks]
+        else:
+            numbers = [n for b, n in zip(mesh.cells, mesh.cell_data[data], strict=True) if b.type in ("triangle", "quad")]
+        found = [
+            ([place(mesh.points[i]) for i in row], int(n))
+            for block, all_numbers in zip(blocks, numbers, strict=True)
+            for row, n in zip(block, all_numbers, strict=True)
+        ]
+    # 16 characters hold fewer digits than a double.
+    exact = {(round(x, 6), round(y, 6)): (x, y) for cell in cells for x, y in cell}
+    left = dict(cells)
+    for corners, number in found:
+        corners = [exact[round(x, 6), round(y, 6)] for x, y in corners]
+        x, y = np.array(corners).T - np.array([[637000.0], [-849000.0]])
+        assert (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() > 0, "turned"
+        ways = [[corners]] if len(corners) == 3 else [[corners[:3], corners[:1] + corners[2:]], [corners[1:], corners[:2] + corners[3:]]]
+        split = next((way for way in ways if all(frozenset(part) in left for part in way)), None)
+        assert split, f"no triangles of {corners}"
+        regions = {left.pop(frozenset(part)) for part in split}
+        assert len(regions) == 1 and (kind == "su2" or regions == {number}), "another region"
+    assert not left and sum(len(corners) == 4 for corners, _ in found) > len(cells) / 4
+    if kind in ("msh", "mesh", "vtu"):
+        data = {"msh": "gmsh:physical", "mesh": "medit:ref", "vtu": "marker"}[kind]
+        assert all_cells(mesh, "line", 2, data) == lines
+    if kind == "vtu":
+        assert pyvista.read(FOLDER / "quads.vtu").n_cells == len(found) + len(lines)
+    if kind in ("msh", "mesh", "bdf") and (seen := by_gmsh(f"quads.{kind}")):
+        assert sum(count for (dimension, _), count in seen[0].items() if dimension == 2) == len(found), "Gmsh sees another number"
+    if kind == "inp":
+        text = (FOLDER / "quads.inp").read_text()
+        elements = {}
+        for line in text.split("*NSET")[0].split("*ELEMENT")[1:]:
+            for row in line.splitlines()[1:]:
+                number, *corners = map(int, row.split(", "))
+                elements[number] = corners
+        for part in text.split("*SURFACE, TYPE=ELEMENT, NAME=")[1:]:
+            name, *rows_of_surface = part.split("\n*")[0].splitlines()
+            ends = set()
+            for row in rows_of_surface:
+                element, side = row.split(", S")
+                corners, k = elements[int(element)], int(side) - 1
+                ends.add(frozenset((corners[k], corners[(k + 1) % len(corners)])))
+            number = {"marker_1": 1, "inlet": 2, "open_sea": 3, "weld": 9}[name]
+            assert len(ends) == sum(n == number for n in lines.values()), f"sides of {name}"
+
+
 def second_order_of(kind):
     """Triangles with six nodes, the middles of whose sides are where they should be."""
     run("mesh", "plates.poly", "--max-area", 0.1, "--second-order", "-o", f"second.{kind}", "-o", "second.ele")

@@ -469,6 +469,7 @@ JUDGES = {
     "answers to queries": answers_of,
     "triangles": triangles_of,
     "elements of second order": second_order_of,
+    "quadrilaterals": solvers.quads_of,
     "tetrahedra": tetrahedra_of,
     "surfaces in space": surfaces_of,
     "Voronoi cells": cells_of,

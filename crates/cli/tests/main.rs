@@ -32,6 +32,7 @@ mod outside;
 mod place;
 mod polyhedra;
 mod program;
+mod quads;
 mod rasters;
 mod refined_again;
 mod repeated;

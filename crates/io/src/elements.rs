@@ -14,9 +14,6 @@ use crate::{Mesh, Names, Remark};
 /// The corners of the facet of a tetrahedron opposite to each corner, counter-clockwise seen from outside.
 pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// The sides of a triangle by the corner that a side is opposite to, as Abaqus numbers sides: from corner 1 to 2, 2 to 3, 3 to 1.
-const SIDES_OF_TRIANGLE: [usize; 3] = [2, 3, 1];
-
 /// The sides of a tetrahedron by the corner that a side is opposite to, as Abaqus numbers them.
 const SIDES_OF_TETRAHEDRON: [usize; 4] = [3, 4, 2, 1];
 
@@ -43,7 +40,7 @@ pub(crate) struct Elements {
 pub(crate) struct Owner {
     /// The number of the cell in a file that counts from 1, in the order of the groups.
     pub(crate) cell: usize,
-    /// The number of the side as Abaqus has it.
+    /// The number of the side as Abaqus has it: of triangles and quadrilaterals 1 from corner 1 to 2, and so on.
     pub(crate) side: usize,
 }
 
@@ -59,9 +56,9 @@ pub(crate) struct Group {
     label: String,
     /// The name that was given.
     given: Option<String>,
-    /// How many nodes an element has.
-    width: usize,
     nodes: Vec<usize>,
+    /// Where each element ends among them.
+    ends: Vec<usize>,
     /// The elements by their places among all.
     members: Vec<usize>,
 }
@@ -89,7 +86,16 @@ impl Group {
 
     /// The nodes of each element.
     pub(crate) fn rows(&self) -> impl ExactSizeIterator<Item = &[usize]> {
-        self.nodes.chunks_exact(self.width)
+        let start = |i: usize| i.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.ends.iter().enumerate().map(move |(i, &end)| &self.nodes[start(i)..end])
+    }
+
+    /// The numbers of nodes that elements have, increasing.
+    pub(crate) fn widths(&self) -> Vec<usize> {
+        let mut widths: Vec<usize> = self.rows().map(<[usize]>::len).collect();
+        widths.sort_unstable();
+        widths.dedup();
+        widths
     }
 
     /// The nodes of all elements, by increasing index.
@@ -106,11 +112,12 @@ impl Elements {
         let middles = mesh.second_order.then(|| Middles::of(mesh));
         let middles = middles.as_ref();
         let dimension = T::Point::COUNT;
-        let cells: Vec<Vec<usize>> = mesh.simplices().map(|s| mesh.nodes(s, middles).collect()).collect();
-        let regions: Vec<f64> = match mesh.region_values() {
-            Some(values) => values.collect(),
-            None => vec![0.0; cells.len()],
+        let with_middles = |(s, corners): (T::Simplex, Vec<usize>)| {
+            if middles.is_some() { mesh.nodes(s, middles).collect() } else { corners }
         };
+        let cells: Vec<Vec<usize>> = mesh.cells().map(with_middles).collect();
+        let of = |s| mesh.regions.and_then(|regions| regions.get(mesh.triangulation.index(s))).copied();
+        let regions: Vec<f64> = mesh.cells().map(|cell| of(cell.0).unwrap_or_default()).collect();
         let mut sides: Vec<Vec<usize>> = Vec::new();
         let mut markers: Vec<i64> = Vec::new();
         let mut owners: Vec<(usize, usize)> = Vec::new();
@@ -252,21 +259,20 @@ fn owners_of<T: Triangulation>(
         sides.iter().enumerate().map(|(side, &ends)| (ordered(ends), side)).collect();
     places.sort_unstable();
     let mut owners: Vec<Option<(usize, usize)>> = vec![None; sides.len()];
-    for (cell, s) in mesh.simplices().enumerate() {
-        let corners = mesh.triangulation.corners(s);
-        for (k, &number) in SIDES_OF_TRIANGLE.iter().enumerate() {
-            let ends = [1, 2].map(|step| corners.as_ref()[(k + step) % 3]);
+    for (cell, (_, corners)) in mesh.cells().enumerate() {
+        for k in 0..corners.len() {
+            let ends = [0, 1].map(|step| VertexId::new(corners[(k + step) % corners.len()]));
             let Ok(at) = places.binary_search_by_key(&ordered(ends), |place| place.0) else { continue };
             let owner = &mut owners[places[at].1];
             let [from, to] = ends.map(|v| mesh.point(v));
-            // Triangles are counter-clockwise: this one is on the left of its sides.
+            // Cells are counter-clockwise: this one is on the left of its sides.
             let is_left = from.as_ref() < to.as_ref();
             let goes_first = |&(other, _): &(usize, usize)| match regions[cell].order(&regions[other]) {
                 order if order.is_eq() => is_left,
                 order => order.is_lt(),
             };
             if owner.as_ref().is_none_or(goes_first) {
-                *owner = Some((cell, number));
+                *owner = Some((cell, k + 1));
             }
         }
     }
@@ -302,8 +308,14 @@ fn grouped<'a, N: Number>(
             number: number.value(),
             label: format!("{kind}_{}", number.label()),
             given: given(number).map(str::to_owned),
-            width: elements[part[0]].len(),
             nodes: part.iter().flat_map(|&i| &elements[i]).copied().collect(),
+            ends: part
+                .iter()
+                .scan(0, |end, &i| {
+                    *end += elements[i].len();
+                    Some(*end)
+                })
+                .collect(),
             members: part.to_vec(),
         }
     };

@@ -61,6 +61,9 @@ pub struct Mesh<'a, T: Triangulation> {
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
     pub second_order: bool,
+    /// In the plane, for each triangle by index the index of the one that it makes a quadrilateral with. Not all formats hold that: see
+    /// [`Drawable::check_quads`]. Elements are of first order then.
+    pub partners: Option<&'a [Option<usize>]>,
     /// The type of elements in `.inp` files, if it is not the usual one, such as `CPS6`.
     pub element: Option<&'a str>,
 }
@@ -131,6 +134,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             point_markers: None,
             edge_markers: true,
             second_order: false,
+            partners: None,
             element: None,
         }
     }
@@ -167,6 +171,27 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
     ) -> impl Iterator<Item = usize> + use<T> {
         let corners = self.triangulation.corners(s);
         corners.indices().chain(middles.map(|middles| middles.of_triangle(corners)).into_iter().flatten())
+    }
+
+    /// The corners of the cells, each with its simplex: simplices, but for quadrilaterals, which stand for two triangles, at the place of the
+    /// first one.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = (T::Simplex, Vec<usize>)> + '_ {
+        let t = self.triangulation;
+        self.simplices().filter_map(move |s| {
+            let corners: Vec<usize> = t.corners(s).indices().collect();
+            let Some(partner) = self.partner(s) else { return Some((s, corners)) };
+            let is_across = |&k: &usize| self.across(s, k).is_some_and(|next| t.index(next) == partner);
+            let k = (0..corners.len()).find(is_across)?;
+            let other = t.corners(self.across(s, k)?);
+            let far = other.indices().find(|corner| !corners.contains(corner))?;
+            let [at, after, before] = [0, 1, 2].map(|step| corners[(k + step) % 3]);
+            (t.index(s) < partner).then(|| (s, vec![at, after, far, before]))
+        })
+    }
+
+    /// The index of the triangle that one makes a quadrilateral with.
+    pub(crate) fn partner(&self, s: T::Simplex) -> Option<usize> {
+        self.partners?.get(self.triangulation.index(s)).copied().flatten()
     }
 
     /// The region of each simplex that is not left out.
@@ -324,6 +349,9 @@ pub trait Drawable: Coordinates {
     /// Whether triangulations of such points are written in a format if their elements are of second order.
     fn check_second_order(format: Format) -> Result<(), Error>;
 
+    /// Whether triangulations of such points are written in a format if some triangles make quadrilaterals.
+    fn check_quads(format: Format) -> Result<(), Error>;
+
     /// Writes the triangles of a triangulation, or draws it.
     fn write_triangles<T: Triangulation<Point = Self>>(
         out: &mut dyn Write,
@@ -339,6 +367,11 @@ impl Drawable for [f64; 2] {
     fn check_second_order(format: Format) -> Result<(), Error> {
         format.check(Self::CONTENTS, Direction::Written)?;
         format.check(Contents::SecondOrder, Direction::Written)
+    }
+
+    fn check_quads(format: Format) -> Result<(), Error> {
+        format.check(Self::CONTENTS, Direction::Written)?;
+        format.check(Contents::Quads, Direction::Written)
     }
 
     fn write_triangles<T: Triangulation<Point = Self>>(
@@ -379,6 +412,10 @@ impl Drawable for [f64; 3] {
         Err(format.without(Contents::SecondOrder, Direction::Written))
     }
 
+    fn check_quads(format: Format) -> Result<(), Error> {
+        Err(format.without(Contents::Quads, Direction::Written))
+    }
+
     fn write_triangles<T: Triangulation<Point = Self>>(
         out: &mut dyn Write,
         format: Format,
@@ -408,6 +445,9 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
 ) -> Result<Remark, Error> {
     if mesh.second_order {
         T::Point::check_second_order(format)?;
+    }
+    if mesh.partners.is_some() {
+        T::Point::check_quads(format)?;
     }
     match format {
         Format::Npy => npy::write_simplices(out, mesh.simplex_count(), Mesh::<T>::WIDTH, mesh.rows())?,

@@ -114,6 +114,9 @@ pub(crate) struct MeshArgs {
     /// Triangles with six nodes: their corners and the middles of their edges.
     #[arg(long)]
     pub(crate) second_order: bool,
+    /// Quadrilaterals where two triangles make one with angles from 30 to 150 degrees, and triangles elsewhere.
+    #[arg(long, conflicts_with = "second_order")]
+    pub(crate) quads: bool,
     /// The type of elements in .inp files, such as CPS6 for plane stress [default: CPS3; CPE6 with --second-order, which is plane strain, because
     /// more programs know it].
     #[arg(long, value_name = "TYPE", value_parser = element)]

@@ -14,7 +14,9 @@ mod tell;
 
 use std::path::Path;
 
-use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Shapes2, Triangulation, VertexId};
+use delone::{
+    Constrained2, Error, Fill, Location2, Quads2, Refined2, Seeds2, Shapes2, Triangulation, VertexId,
+};
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
     write_voronoi_node,
@@ -234,6 +236,7 @@ impl Made {
         let mut rows = vec![None; c.slot_count()];
         c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
+        let partners = plan.traits.quads.then(|| self.partners());
         let mesh = Mesh {
             heights: heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
@@ -246,6 +249,7 @@ impl Made {
             point_markers: points.as_deref(),
             edge_markers: plan.markers != Written::Never,
             second_order: plan.traits.second_order,
+            partners: partners.as_deref(),
             element: plan.element.as_deref(),
             ..Mesh::new(kept, &kept.points)
         };
@@ -258,12 +262,26 @@ impl Made {
                 Content::Mesh(format @ Format::Off) => {
                     write_mesh(out, *format, &Mesh { second_order: false, ..mesh }, options)
                 }
+                // Pictures show triangles.
+                Content::Mesh(format @ (Format::Png | Format::Svg)) => {
+                    write_mesh(out, *format, &Mesh { partners: None, ..mesh }, options)
+                }
                 Content::Mesh(format) => write_mesh(out, *format, &mesh, options),
                 Content::VoronoiNode => write_voronoi_node(out, &mesh).map(|()| None),
                 Content::VoronoiEdge => write_voronoi_edge(out, &mesh).map(|()| None),
             })?;
         }
         Ok(())
+    }
+
+    /// For each triangle by index the one that it makes a quadrilateral with.
+    fn partners(&self) -> Vec<Option<usize>> {
+        let mut partners = vec![None; self.triangulation.slot_count()];
+        for [one, other] in Quads2::of(&self.triangulation, &self.refined).pairs {
+            partners[one.index()] = Some(other.index());
+            partners[other.index()] = Some(one.index());
+        }
+        partners
     }
 
     /// The region of each triangle, if regions are written.

@@ -26,8 +26,11 @@ pub(super) fn named(args: &MeshArgs, plan: &Plan, inputs: &[&Path]) -> Result<Ve
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), inputs)?)?;
     let mut targets = Vec::new();
     for (path, format) in outputs {
+        let is_picture = matches!(format, Format::Png | Format::Svg);
         let check = if plan.traits.second_order {
             <[f64; 2]>::check_second_order(format)
+        } else if plan.traits.quads && !is_picture {
+            <[f64; 2]>::check_quads(format)
         } else {
             format.check(Contents::Triangles, Direction::Written)
         };

@@ -31,6 +31,8 @@ pub enum Contents {
     Triangles,
     /// A triangulation of the plane of second order: with a node on each edge.
     SecondOrder,
+    /// Triangles of the plane, and quadrilaterals of two triangles each.
+    Quads,
     /// The largest area that each triangle may have.
     Areas,
     /// Tetrahedra between points, or a triangulation of space or its border.
@@ -68,6 +70,7 @@ impl Contents {
         Self::Answers,
         Self::Triangles,
         Self::SecondOrder,
+        Self::Quads,
         Self::Areas,
         Self::Tetrahedra,
         Self::Surfaces,
@@ -95,6 +98,7 @@ impl fmt::Display for Contents {
             Self::Answers => "answers to queries",
             Self::Triangles => "triangles",
             Self::SecondOrder => "elements of second order",
+            Self::Quads => "quadrilaterals",
             Self::Areas => "areas of triangles",
             Self::Tetrahedra => "tetrahedra",
             Self::Surfaces => "surfaces in space",

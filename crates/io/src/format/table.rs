@@ -2,7 +2,7 @@
 
 use super::Contents::{
     Answers, Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points,
-    Polyhedra, Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
+    Polyhedra, Quads, Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
 };
 use super::readers::{OF_GEOJSON, OF_MEDIT, OF_MSH, OF_POLY, OF_SU2, OF_VTK, OF_WKT};
 use super::{Contents, Format, Readers};
@@ -250,7 +250,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["vtu"],
         also: &[],
         readers: OF_VTK,
-        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Polyhedra, Patches],
+        writes: &[Triangles, SecondOrder, Quads, Tetrahedra, Surfaces, Polyhedra, Patches],
     },
     Row {
         format: Format::Vtp,
@@ -420,7 +420,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["msh"],
         also: &[],
         readers: OF_MSH,
-        writes: &[Triangles, SecondOrder, Tetrahedra],
+        writes: &[Triangles, SecondOrder, Quads, Tetrahedra],
     },
     Row {
         format: Format::Inp,
@@ -428,7 +428,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["inp"],
         also: &[],
         readers: Readers::NONE,
-        writes: &[Triangles, SecondOrder, Tetrahedra],
+        writes: &[Triangles, SecondOrder, Quads, Tetrahedra],
     },
     Row {
         format: Format::Medit,
@@ -436,7 +436,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["mesh"],
         also: &["medit"],
         readers: OF_MEDIT,
-        writes: &[Triangles, Tetrahedra],
+        writes: &[Triangles, Quads, Tetrahedra],
     },
     Row {
         format: Format::Su2,
@@ -444,7 +444,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["su2"],
         also: &[],
         readers: OF_SU2,
-        writes: &[Triangles, Tetrahedra],
+        writes: &[Triangles, Quads, Tetrahedra],
     },
     Row {
         format: Format::Sms,
@@ -452,7 +452,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["2dm"],
         also: &["sms"],
         readers: Readers::NONE,
-        writes: &[Triangles, SecondOrder],
+        writes: &[Triangles, SecondOrder, Quads],
     },
     Row {
         format: Format::Adcirc,
@@ -468,7 +468,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["bdf", "nas"],
         also: &["nastran"],
         readers: Readers::NONE,
-        writes: &[Triangles, SecondOrder, Tetrahedra],
+        writes: &[Triangles, SecondOrder, Quads, Tetrahedra],
     },
     Row {
         format: Format::Xdmf,

@@ -5,7 +5,7 @@
 //! are their edges, which programs call differently, so these have sets of nodes alone.
 //!
 //! Types of elements that Abaqus, CalculiX and meshio know: triangles of the plane are `CPS3` (plane stress), with six nodes `CPE6` (plane
-//! strain, because meshio does not know `CPS6`), those with heights shells. [`Mesh::element`] says another one.
+//! strain, because meshio does not know `CPS6`), those with heights shells. [`Mesh::element`] says another one. Quadrilaterals are `CPS4` or `S4`.
 
 use std::io::{self, Write};
 
@@ -28,23 +28,27 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         write!(out, "{}, {x:?}, {y:?}", i + 1)?;
         if is_flat { writeln!(out)? } else { writeln!(out, ", {z:?}")? }
     }
-    let usual = match (elements.dimension, elements.has_heights, elements.second_order) {
+    let usual = |nodes: usize| match (elements.dimension, elements.has_heights, nodes) {
         (3, ..) => "C3D4",
-        (_, false, false) => "CPS3",
-        (_, false, true) => "CPE6",
-        (_, true, false) => "S3",
-        (_, true, true) => "STRI65",
+        (_, false, 3) => "CPS3",
+        (_, false, 4) => "CPS4",
+        (_, false, _) => "CPE6",
+        (_, true, 3) => "S3",
+        (_, true, 4) => "S4",
+        (_, true, _) => "STRI65",
     };
-    let kind = mesh.element.unwrap_or(usual);
-    let mut number = 0;
+    let mut first = 1;
     for (group, name) in elements.cells.iter().zip(&names.cells) {
-        writeln!(out, "*ELEMENT, TYPE={kind}, ELSET={name}")?;
-        for row in group.rows() {
-            number += 1;
-            write!(out, "{number}")?;
-            row.iter().try_for_each(|node| write!(out, ", {}", node + 1))?;
-            writeln!(out)?;
+        for nodes in group.widths() {
+            let kind = mesh.element.filter(|_| nodes != 4).unwrap_or(usual(nodes));
+            writeln!(out, "*ELEMENT, TYPE={kind}, ELSET={name}")?;
+            for (k, row) in group.rows().enumerate().filter(|(_, row)| row.len() == nodes) {
+                write!(out, "{}", first + k)?;
+                row.iter().try_for_each(|node| write!(out, ", {}", node + 1))?;
+                writeln!(out)?;
+            }
         }
+        first += group.rows().len();
     }
     for (group, name) in elements.sides.iter().zip(&names.sides) {
         writeln!(out, "*NSET, NSET={name}")?;

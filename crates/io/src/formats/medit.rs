@@ -31,23 +31,28 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         let marker = mesh.point_markers.and_then(|markers| markers.get(node)).copied();
         writeln!(out, "{}", marker.and_then(|marker| i32::try_from(marker).ok()).unwrap_or_default())?;
     }
-    let mut list = |groups: &[Group], corners: usize| {
-        let name = LISTS.iter().find(|list| list.1 == corners).map_or("", |list| list.0);
-        let count: usize = groups.iter().map(|group| group.rows().len()).sum();
+    let mut list = |groups: &[Group], corners: usize, name: &str| {
+        let rows = |group: &Group| group.rows().filter(|row| row.len() == corners).count();
+        let count: usize = groups.iter().map(rows).sum();
         if count == 0 {
             return Ok(());
         }
         writeln!(out, "{name}\n{count}")?;
         for group in groups {
-            for nodes in group.rows() {
+            for nodes in group.rows().filter(|row| row.len() == corners) {
                 nodes.iter().try_for_each(|&node| write!(out, "{} ", number_of[node] + 1))?;
                 writeln!(out, "{}", group.reference())?;
             }
         }
         Ok::<(), io::Error>(())
     };
-    list(&elements.sides, elements.dimension)?;
-    list(&elements.cells, elements.dimension + 1)?;
+    let name_of = |corners: usize| LISTS.iter().find(|list| list.1 == corners).map_or("", |list| list.0);
+    let dimension = elements.dimension;
+    list(&elements.sides, dimension, name_of(dimension))?;
+    list(&elements.cells, dimension + 1, name_of(dimension + 1))?;
+    if dimension == 2 {
+        list(&elements.cells, 4, "Quadrilaterals")?;
+    }
     writeln!(out, "End")?;
     Ok(together([elements.renumbered()]))
 }

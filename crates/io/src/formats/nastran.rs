@@ -1,4 +1,4 @@
-//! Bulk data of Nastran (`.bdf`, `.nas`): `GRID*` with coordinates in fields of 16 characters, `CTRIA3`, `CTRIA6` and `CTETRA` with the number of
+//! Bulk data of Nastran (`.bdf`, `.nas`): `GRID*` with coordinates in fields of 16 characters, `CTRIA3`, `CTRIA6`, `CQUAD4` and `CTETRA` with the number of
 //! their region as the property, and `SET1` with the nodes of each marker. Nodes are numbered as their points, from 1.
 //!
 //! A coordinate is the decimal number nearest to it of the most digits that 16 characters hold: 15 digits for positive numbers from 0.1 to 10^15,
@@ -36,10 +36,11 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         let [x, y, z] = position.map(|x| rounded.field(x));
         writeln!(out, "GRID*   {:>16}{:16}{x:>16}{y:>16}*\n*       {z:>16}", i + 1, "")?;
     }
-    let kind = match (elements.dimension, elements.second_order) {
+    let kind = |nodes: usize| match (elements.dimension, nodes) {
         (3, _) => "CTETRA",
-        (_, false) => "CTRIA3",
-        (_, true) => "CTRIA6",
+        (_, 3) => "CTRIA3",
+        (_, 4) => "CQUAD4",
+        _ => "CTRIA6",
     };
     let mut number = 0;
     for (group, name) in elements.cells.iter().zip(&names.cells) {
@@ -47,7 +48,7 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         for nodes in group.rows() {
             number += 1;
             let head = [number, group.tag as usize];
-            card.write(out, kind, head.into_iter().chain(nodes.iter().map(|node| node + 1)))?;
+            card.write(out, kind(nodes.len()), head.into_iter().chain(nodes.iter().map(|node| node + 1)))?;
         }
     }
     for (group, name) in elements.sides.iter().zip(&names.sides) {

@@ -29,11 +29,15 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
     let (used, number_of) = elements.dense();
     let node = |node: usize| number_of[node] + 1;
     writeln!(out, "MESH2D\nNUM_MATERIALS_PER_ELEM 1")?;
-    let (card, order) = if elements.second_order { ("E6T", &AROUND[..]) } else { ("E3T", &[0, 1, 2][..]) };
     let mut number = 0;
     for group in &elements.cells {
         for nodes in group.rows() {
             number += 1;
+            let (card, order) = match nodes.len() {
+                3 => ("E3T", &[0, 1, 2][..]),
+                4 => ("E4Q", &[0, 1, 2, 3][..]),
+                _ => ("E6T", &AROUND[..]),
+            };
             write!(out, "{card} {number}")?;
             order.iter().try_for_each(|&k| write!(out, " {}", node(nodes[k])))?;
             writeln!(out, " {}", group.tag)?;

@@ -16,6 +16,9 @@ use crate::error::excerpt;
 use crate::names::{Rule, together, told};
 use crate::{Error, Mesh, Remark, Source};
 
+/// The number of a quadrilateral.
+const QUADRILATERAL: u32 = 9;
+
 /// Numbers of lines, triangles and tetrahedra, by their corners.
 const KINDS: [(usize, u32); 3] = [(2, 3), (3, 5), (4, 10)];
 
@@ -24,7 +27,10 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
     let names = elements.names(Rule::WORD);
     let (used, number_of) = elements.dense();
     let dimension = elements.dimension;
-    let kind = |corners: usize| KINDS.iter().find(|kind| kind.0 == corners).map_or(0, |kind| kind.1);
+    let kind = |corners: usize| match (dimension, corners) {
+        (2, 4) => QUADRILATERAL,
+        _ => KINDS.iter().find(|kind| kind.0 == corners).map_or(0, |kind| kind.1),
+    };
     let row = |out: &mut dyn Write, nodes: &[usize]| {
         write!(out, "{}", kind(nodes.len()))?;
         nodes.iter().try_for_each(|&node| write!(out, " {}", number_of[node]))

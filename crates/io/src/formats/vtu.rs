@@ -21,14 +21,24 @@ const LINES: [(usize, u8); 2] = [(2, 3), (3, 21)];
 /// The largest number of columns of attributes: each is an array of all cells.
 const MOST_COLUMNS: usize = 256;
 
+/// VTK's number for a quadrilateral.
+const QUADRILATERAL: u8 = 9;
+
 /// The arrays of cells that are ours.
 const OURS: [&str; 2] = ["region", "marker"];
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remark> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
     let attributes = Attributes::of(shape.table(), &OURS, || shape.rows().collect());
-    let grid =
-        Grid { points, heights: shape.heights(), cells, width: 3, attributes: &attributes, lines: None };
+    let grid = Grid {
+        points,
+        heights: shape.heights(),
+        cells,
+        width: 3,
+        attributes: &attributes,
+        widths: None,
+        lines: None,
+    };
     grid.write(out, shape.positions(), shape.triangles(), shape.region_values())?;
     Ok(attributes.remark())
 }
@@ -36,14 +46,28 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remar
 /// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes. Where markers or names of boundaries
 /// are known, the sides follow as lines, with an array of markers that is 0 for triangles.
 pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<Remark> {
-    let (points, cells) = (mesh.points.len(), mesh.simplex_count());
-    let attributes =
-        Attributes::of(mesh.features.map(|features| features.table), &OURS, || mesh.feature_rows().collect());
+    let points = mesh.points.len();
+    // Quadrilaterals have the attributes of the first of their triangles.
+    let is_cell: Vec<bool> = mesh
+        .simplices()
+        .map(|s| mesh.partner(s).is_none_or(|partner| mesh.triangulation.index(s) < partner))
+        .collect();
+    let cells = is_cell.iter().filter(|&&is_cell| is_cell).count();
+    let attributes = Attributes::of(mesh.features.map(|features| features.table), &OURS, || {
+        mesh.feature_rows().zip(&is_cell).filter(|row| *row.1).map(|row| row.0).collect()
+    });
     let middles = mesh.second_order.then(|| Middles::of(mesh));
     let lines = has_lines(mesh).then(|| Lines::of(mesh, middles.as_ref()));
     let width = Mesh::<T>::WIDTH;
-    let grid =
-        Grid { points, heights: mesh.heights, cells, width, attributes: &attributes, lines: lines.as_ref() };
+    let grid = Grid {
+        points,
+        heights: mesh.heights,
+        cells,
+        width,
+        attributes: &attributes,
+        widths: None,
+        lines: lines.as_ref(),
+    };
     if let Some(middles) = middles {
         let positions: Vec<[f64; 3]> = mesh.positions().collect();
         let positions = middles.points(&positions);
@@ -51,6 +75,14 @@ pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) 
         let grid = Grid { points: positions.len(), heights: heights.as_deref(), width: 6, ..grid };
         let rows = mesh.simplices().map(|s| mesh.nodes(s, Some(&middles)));
         grid.write(out, positions.into_iter(), rows, mesh.region_values())?;
+    } else if mesh.partners.is_some() {
+        let rows: Vec<Vec<usize>> = mesh.cells().map(|cell| cell.1).collect();
+        let widths: Vec<usize> = rows.iter().map(Vec::len).collect();
+        let regions = mesh.region_values();
+        let regions =
+            regions.map(|values| values.zip(&is_cell).filter(|value| *value.1).map(|value| value.0));
+        let grid = Grid { widths: Some(&widths), ..grid };
+        grid.write(out, mesh.positions(), rows, regions)?;
     } else {
         grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values())?;
     }
@@ -141,6 +173,8 @@ struct Grid<'a> {
     cells: usize,
     width: usize,
     attributes: &'a Attributes<'a>,
+    /// How many corners each cell has, where they differ: in the plane, three or four.
+    widths: Option<&'a [usize]>,
     /// Lines after the cells.
     lines: Option<&'a Lines>,
 }
@@ -150,13 +184,14 @@ impl Grid<'_> {
         &self,
         out: &mut dyn Write,
         positions: impl Iterator<Item = [f64; 3]>,
-        corners: impl Iterator<Item: IntoIterator<Item = usize>>,
+        corners: impl IntoIterator<Item: IntoIterator<Item = usize>>,
         regions: Option<impl Iterator<Item = f64>>,
     ) -> io::Result<()> {
-        let Self { points, heights, cells, width, attributes, lines } = *self;
+        let Self { points, heights, cells, width, attributes, widths, lines } = *self;
         let line_count = lines.map_or(0, |lines| lines.markers.len());
         let all = cells + line_count;
         let kind = KINDS.into_iter().find(|kind| kind.0 == width).map_or(0, |kind| kind.1);
+        let corner_count = widths.map_or(width * cells, |widths| widths.iter().sum());
         // Each array is preceded by its length in eight bytes.
         let mut end = 0;
         let mut place = |size: usize| {
@@ -167,7 +202,7 @@ impl Grid<'_> {
         let offsets = [
             place(24 * points),
             heights.map_or(0, |heights| place(8 * heights.len())),
-            place(8 * (width * cells + lines.map_or(0, |lines| lines.nodes.len()))),
+            place(8 * (corner_count + lines.map_or(0, |lines| lines.nodes.len()))),
             place(8 * all),
             place(all),
             regions.as_ref().map_or(0, |_| place(8 * all)),
@@ -217,14 +252,22 @@ impl Grid<'_> {
             array(out, heights.len(), heights.iter().map(|z| z.to_le_bytes()))?;
         }
         let nodes = lines.map_or(&[][..], |lines| &lines.nodes);
-        let corners = corners.flatten().chain(nodes.iter().copied());
-        array(out, width * cells + nodes.len(), corners.map(|index| (index as i64).to_le_bytes()))?;
+        let corners = corners.into_iter().flatten().chain(nodes.iter().copied());
+        array(out, corner_count + nodes.len(), corners.map(|index| (index as i64).to_le_bytes()))?;
         let line_width = lines.map_or(0, |lines| lines.width);
-        let ends = (1..=cells).map(|end| width * end);
-        let ends = ends.chain((1..=line_count).map(|end| width * cells + line_width * end));
+        let width_of = |cell: usize| widths.map_or(width, |widths| widths[cell]);
+        let ends = (0..cells).scan(0, |end, cell| {
+            *end += width_of(cell);
+            Some(*end)
+        });
+        let ends = ends.chain((1..=line_count).map(|end| corner_count + line_width * end));
         array(out, all, ends.map(|end| (end as i64).to_le_bytes()))?;
         let kind_of_lines = LINES.into_iter().find(|kind| kind.0 == line_width).map_or(0, |kind| kind.1);
-        let kinds = std::iter::repeat_n(kind, cells).chain(std::iter::repeat_n(kind_of_lines, line_count));
+        let kind_of = |cell: usize| match widths {
+            Some(widths) if widths[cell] == 4 => QUADRILATERAL,
+            _ => kind,
+        };
+        let kinds = (0..cells).map(kind_of).chain(std::iter::repeat_n(kind_of_lines, line_count));
         array(out, all, kinds.map(|kind| [kind]))?;
         if let Some(regions) = regions {
             let of_lines = std::iter::repeat_n(0.0, line_count);

@@ -15,6 +15,9 @@ use crate::{Mesh, Remark};
 
 pub(crate) use read::{has_lines, read_graph, read_groups, read_points, read_simplices};
 
+/// Gmsh's number for a quadrilateral.
+const QUADRILATERAL: u8 = 3;
+
 /// Gmsh's numbers for elements, by dimension and order: lines, triangles, tetrahedra.
 const KINDS: [[u8; 2]; 4] = [[15, 15], [1, 8], [2, 9], [4, 11]];
 
@@ -77,16 +80,23 @@ fn write_nodes(out: &mut dyn Write, elements: &Elements, groups: &[(usize, &Grou
 /// Elements, numbered from 1: a block for each entity.
 fn write_elements(out: &mut dyn Write, elements: &Elements, groups: &[(usize, &Group)]) -> io::Result<()> {
     let count: usize = groups.iter().map(|(_, group)| group.rows().len()).sum();
-    writeln!(out, "$Elements\n{} {count} {} {count}", groups.len(), count.min(1))?;
+    let blocks: usize = groups.iter().map(|group| group.1.widths().len()).sum();
+    writeln!(out, "$Elements\n{blocks} {count} {} {count}", count.min(1))?;
     let mut number = 0;
     for (dimension, group) in groups {
-        let kind = KINDS[*dimension][usize::from(elements.second_order)];
-        writeln!(out, "{dimension} {} {kind} {}", group.tag, group.rows().len())?;
-        for row in group.rows() {
-            number += 1;
-            write!(out, "{number}")?;
-            row.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
-            writeln!(out)?;
+        for nodes in group.widths() {
+            let kind = match (*dimension, nodes) {
+                (2, 4) => QUADRILATERAL,
+                _ => KINDS[*dimension][usize::from(elements.second_order)],
+            };
+            let rows = || group.rows().filter(|row| row.len() == nodes);
+            writeln!(out, "{dimension} {} {kind} {}", group.tag, rows().count())?;
+            for row in rows() {
+                number += 1;
+                write!(out, "{number}")?;
+                row.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
+                writeln!(out)?;
+            }
         }
     }
     writeln!(out, "$EndElements")
