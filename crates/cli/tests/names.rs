@@ -49,6 +49,10 @@ fn files_and_options_name() {
         place.succeed(&format!("-q mesh {input} -o again.msh"));
         assert_eq!(physical(&place.read("again.msh")), named, "{input}");
     }
+    // Triangulations keep them too.
+    let told = text(&place.run("triangulate m.poly -o t.msh -o t.off").stderr);
+    assert!(told.contains("t.off: names of regions and boundaries are left out"), "{told}");
+    assert!(physical(&place.read("t.msh")).contains(&"1 2 \"in let\""));
     // Options go before files.
     place.succeed("-q mesh two.poly --boundary 2=door -o m.msh");
     assert!(physical(&place.read("m.msh")).contains(&"1 2 \"door\""));
