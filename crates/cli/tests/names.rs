@@ -49,6 +49,10 @@ fn files_and_options_name() {
         place.succeed(&format!("-q mesh {input} -o again.msh"));
         assert_eq!(physical(&place.read("again.msh")), named, "{input}");
     }
+    // Triangulations keep them too.
+    let told = text(&place.run("triangulate m.poly -o t.msh -o t.off").stderr);
+    assert!(told.contains("t.off: names of regions and boundaries are left out"), "{told}");
+    assert!(physical(&place.read("t.msh")).contains(&"1 2 \"in let\""));
     // Options go before files.
     place.succeed("-q mesh two.poly --boundary 2=door -o m.msh");
     assert!(physical(&place.read("m.msh")).contains(&"1 2 \"door\""));
@@ -112,4 +116,21 @@ fn features_name() {
     assert_eq!(physical(&place.read("f.msh")), codes);
     place.fail("mesh f.geojson --names title -o f.msh", 2, "no feature has the attribute \"title\"");
     place.fail("mesh two.poly --names title -o f.msh", 2, "no feature has the attribute \"title\"");
+}
+
+#[test]
+fn numbers_that_a_format_does_not_permit_are_told() {
+    let place = Place::new();
+    place.file(
+        "square.poly",
+        "4 2 0 0\n0 0 0\n1 3 0\n2 3 3\n3 0 3\n4 1\n0 0 1 5\n1 1 2 5\n2 2 3 -3\n3 3 0 0\n0\n",
+    );
+    let told = text(&place.run("mesh square.poly -o a.bdf -o a.2dm -o a.mesh -o a.su2").stderr);
+    assert!(
+        told.contains("note: a.bdf: numbers that it does not permit are changed: marker_-3 is 2\n"),
+        "{told}"
+    );
+    assert_eq!(told.lines().count(), 2, "{told}");
+    assert!(place.read("a.2dm").contains(" -3\n") && place.read("a.mesh").contains(" -3\n"));
+    place.succeed("-q --strict mesh square.poly -o a.2dm -o a.mesh -o a.su2 -o a.msh -o a.inp");
 }

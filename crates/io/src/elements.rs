@@ -79,6 +79,11 @@ impl Group {
         self.whole.map_or(self.tag.into(), i64::from)
     }
 
+    /// The tag, if it is not the number.
+    fn changed_tag(&self) -> Option<i64> {
+        (self.whole.and_then(|whole| whole.try_into().ok()) != Some(self.tag)).then(|| self.tag.into())
+    }
+
     /// The number that the elements have in common.
     pub(crate) fn number(&self) -> f64 {
         self.number
@@ -188,11 +193,15 @@ impl Elements {
         changed(self.sides.iter(), |group| group.whole.is_none().then(|| group.reference()))
     }
 
-    /// A remark for formats whose numbers are positive.
-    pub(crate) fn retagged(&self) -> Remark {
-        changed(self.sides.iter().chain(&self.cells), |group| {
-            (group.whole.and_then(|whole| whole.try_into().ok()) != Some(group.tag)).then(|| group.tag.into())
-        })
+    /// A remark for formats whose regions have positive numbers.
+    pub(crate) fn retagged_cells(&self) -> Remark {
+        // Where there are no regions, nobody misses their number.
+        changed(self.cells.iter().filter(|_| self.has_regions), Group::changed_tag)
+    }
+
+    /// A remark for formats whose markers have positive numbers.
+    pub(crate) fn retagged_sides(&self) -> Remark {
+        changed(self.sides.iter(), Group::changed_tag)
     }
 
     /// A remark for formats whose points of the plane have no third coordinate.

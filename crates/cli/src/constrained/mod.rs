@@ -9,12 +9,12 @@ use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
     VertexId,
 };
-use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Rows, Trim, picture, write_mesh};
+use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Names, Rows, Trim, picture, write_mesh};
 use delone_terrain::values::extended;
 
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
-use crate::message::{Failure, note};
+use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
@@ -228,11 +228,13 @@ impl Constrained {
             trim: (trim.count() > 0).then_some(&trim),
             constraints: Some(&constraints),
             regions: has_regions.then_some(&regions[..]),
+            names: Some(&graph.names),
             features: (self.polygons > 0).then_some(features),
             ..Mesh::new(c, c.points())
         };
         let phase = Phase::start(quiet, "writing");
         for (path, format) in outputs {
+            tell_names(&graph.names, path, *format, quiet);
             files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, options))?;
         }
         drop(phase);
@@ -247,6 +249,13 @@ impl Constrained {
         c.constraint_edges()
             .map(|e| first(e).and_then(|s| of_segments.get(s)).copied().unwrap_or(0))
             .collect()
+    }
+}
+
+/// Tells that a file is without names, if there are some and it is more than a picture.
+pub(crate) fn tell_names(names: &Names, path: &Path, format: Format, quiet: bool) {
+    if !names.is_empty() && !format.keeps_names() && !matches!(format, Format::Png | Format::Svg) {
+        lost(quiet, format_args!("{}: names of regions and boundaries are left out", path.display()));
     }
 }
 

@@ -1,15 +1,15 @@
 //! Names of regions and boundaries: of options, of files, and of features.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 
-use delone_io::{Format, Graph, Names, Table, Value};
+use delone_io::{Graph, Names, Table, Value};
 
 use super::names::{Content, Target};
 use crate::args::MeshArgs;
 use crate::constrained::features::rows_of_lines;
+use crate::constrained::tell_names;
 use crate::files;
-use crate::message::{Failure, lost, warn};
+use crate::message::{Failure, warn};
 
 /// The attribute that is the name of a feature if no other one is asked for.
 const NAME_COLUMN: &str = "name";
@@ -122,12 +122,10 @@ impl Naming {
 
     /// Tells which outputs are without the names that options and files say.
     pub(super) fn tell(&self, targets: &[Target], quiet: bool) {
-        let is_without = |target: &&(PathBuf, Content)| match target.1 {
-            Content::Mesh(format) => !format.keeps_names() && !matches!(format, Format::Png | Format::Svg),
-            Content::VoronoiNode | Content::VoronoiEdge => false,
-        };
-        for (path, _) in targets.iter().filter(is_without).filter(|_| !self.said.is_empty()) {
-            lost(quiet, format_args!("{}: names of regions and boundaries are left out", path.display()));
+        for (path, content) in targets {
+            if let Content::Mesh(format) = content {
+                tell_names(&self.said, path, *format, quiet);
+            }
         }
     }
 }

@@ -61,7 +61,12 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
         )?;
     }
     writeln!(out, "ENDDATA")?;
-    Ok(together([rounded.remark(), elements.retagged(), told(&names.changed)]))
+    Ok(together([
+        rounded.remark(),
+        elements.retagged_cells(),
+        elements.retagged_sides(),
+        told(&names.changed),
+    ]))
 }
 
 /// How integers are written.

@@ -63,5 +63,5 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
             }
         }
     }
-    Ok(together([elements.retagged(), told(&changed)]))
+    Ok(together([elements.retagged_cells(), elements.renumbered_sides(), told(&changed)]))
 }
