@@ -199,7 +199,7 @@ pub(super) const PLANE: &[Row] = &[
     ("mesh --max-edge", |g| mesh(g, &format!("--max-edge {}", g.part(0.0625, 1)))),
     ("mesh --max-area", |g| mesh(g, &format!("--max-area {} --smooth 1", g.part(0.002, 2)))),
     ("mesh --layer-height", |g| {
-        mesh(g, &format!("--max-edge {} --layer-height {}", g.part(0.125, 1), g.part(0.0078125, 1)))
+        mesh(g, &format!("--max-edge {} --layer-height {}", g.part(0.125, 1), g.part(0.015_625, 1)))
     }),
     ("mesh --conforming", |g| mesh(g, "--conforming --min-angle 20")),
     ("mesh --size", |g| {

@@ -2,7 +2,8 @@
 
 use delone_predicates::orient2d;
 
-/// Whether corners are those of a convex polygon, counter-clockwise, all strictly convex.
+/// Whether three or four corners are those of a convex polygon, counter-clockwise: four turns to the left, each less than half a turn,
+/// go around once.
 pub(super) fn is_convex(corners: &[[f64; 2]]) -> bool {
     let count = corners.len();
     count > 2
@@ -11,8 +12,6 @@ pub(super) fn is_convex(corners: &[[f64; 2]]) -> bool {
             let [p, q, r] = [0, 1, 2].map(|step| corners[(k + step) % count]);
             orient2d(p, q, r).is_positive()
         })
-        && (count < 5
-            || (2..count - 1).all(|k| orient2d(corners[0], corners[k], corners[k + 1]).is_positive()))
 }
 
 /// Whether all points are strictly to the right of a line.
