@@ -244,7 +244,7 @@ impl Case<'_> {
     }
 
     /// Whether an edge of before is a constraint only to keep triangles.
-    fn only_keeps(&self, ends: &[VertexId; 2]) -> bool {
+    fn only_keeps(&self, ends: [VertexId; 2]) -> bool {
         !self.kept.is_empty()
             && self
                 .before
@@ -257,7 +257,7 @@ impl Case<'_> {
         let is_split = |e: &[VertexId; 2]| !self.after.constraints().any(|edge| edge == *e);
         if self.wish.keep == Keep::Constraints
             && (refined.report.on_constraints > 0
-                || edges(self.before).iter().filter(|e| !self.only_keeps(e)).any(is_split))
+                || edges(self.before).iter().filter(|e| !self.only_keeps(**e)).any(is_split))
         {
             return Err("constraints are split".to_owned());
         }
@@ -271,7 +271,7 @@ impl Case<'_> {
                 [v.min(w), v.max(w)]
             };
             let border = c.constraint_edges().filter(|&e| !is_between(e)).map(ends);
-            let border = border.filter(|e| !self.only_keeps(e));
+            let border = border.filter(|e| !self.only_keeps(*e));
             if let Some(edge) = border.into_iter().find(is_split) {
                 return Err(format!("{edge:?} of the border is split"));
             }
