@@ -220,7 +220,7 @@ def grids_and_faces():
 
 
 def quads_of(kind):
-    """Quadrilaterals: each is two of the triangles that there are without them, all are there once, and sides stay as they are."""
+    """Quadrilaterals: each is two of the triangles that there are without them. All are there once, and sides stay."""
     cells, lines = wanted("msh")
     run("mesh", "plates.poly", "--max-area", 0.05, "--quads", "-o", f"quads.{kind}")
     if kind == "2dm":
@@ -234,7 +234,8 @@ def quads_of(kind):
         blocks = [block.data for block in mesh.cells if block.type in ("triangle", "quad")]
         if kind == "inp":
             sets = {number: mesh.cell_sets[name] for number, name in ((1, "steel"), (2, "soft_wood"))}
-            of = [next(n for n, parts in sets.items() if len(parts[k])) for k, block in enumerate(mesh.cells) if block.type != "line"]
+            kinds = [block.type for block in mesh.cells]
+            of = [next(n for n, parts in sets.items() if len(parts[k])) for k, kind in enumerate(kinds) if kind != "line"]
             numbers = [np.full(len(block), n) for block, n in zip(blocks, of, strict=True)]
         elif kind == "su2":
             numbers = [np.zeros(len(block)) for block in blocks]
@@ -252,7 +253,9 @@ def quads_of(kind):
         corners = [exact[round(x, 6), round(y, 6)] for x, y in corners]
         x, y = np.array(corners).T - np.array([[637000.0], [-849000.0]])
         assert (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() > 0, "turned"
-        ways = [[corners]] if len(corners) == 3 else [[corners[:3], corners[:1] + corners[2:]], [corners[1:], corners[:2] + corners[3:]]]
+        ways = [[corners]]
+        if len(corners) == 4:
+            ways = [[corners[:3], corners[:1] + corners[2:]], [corners[1:], corners[:2] + corners[3:]]]
         split = next((way for way in ways if all(frozenset(part) in left for part in way)), None)
         assert split, f"no triangles of {corners}"
         regions = {left.pop(frozenset(part)) for part in split}
