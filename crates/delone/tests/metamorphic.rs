@@ -6,8 +6,8 @@
 
 use delone::surface::{Contours, Interpolator, Levels, Outside, gradients};
 use delone::{
-    Constrained2, Crossings, Delaunay2, Delaunay3, Fill, Furthest2, Graph, Hull2, Refinement, Region2,
-    Regular2, Regular3, Relaxation2, VoronoiEdge2,
+    Constrained2, Crossings, Delaunay2, Delaunay3, Error, Fill, Furthest2, Graph, Hull2, Layers2, Quads2,
+    Refinement, Region2, Regular2, Regular3, Relaxation2, VertexId, VoronoiEdge2,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::share;
@@ -122,6 +122,36 @@ fn refined(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
     }
     outcome.measure(&[], refined.report.smallest_angle, 0);
     outcome.measure(&[], refined.report.left.len() as f64, 0);
+    outcome
+}
+
+/// Triangles that are Delaunay where everything leans, and so are not Delaunay here.
+fn leaning(set: &Set<2>) -> Vec<[VertexId; 3]> {
+    let leaning: Vec<[f64; 2]> = set.points.iter().map(|[x, y]| [x + 2.0 * y, *y]).collect();
+    Delaunay2::from_points(&leaning).expect("finite").triangles().collect()
+}
+
+/// A mesh of triangles that are given. Coordinates that lean are rounded, so that it may be refused.
+fn kept(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
+    let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
+    let mut outcome = Outcome::default();
+    match how.max_vertices(3000).triangles(&leaning(set)).run(&mut c) {
+        Ok(_) => c.triangles().for_each(|t| outcome.set(t.map(|v| c.point(v)).to_vec())),
+        Err(error) => assert!(matches!(error, Error::KeptTriangle { .. }), "{error}"),
+    }
+    outcome
+}
+
+/// A mesh, made coarser, in quadrilaterals and the triangles that are left.
+fn coarse(set: &Set<2>) -> Outcome<2> {
+    let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
+    let fine = Refinement::new().max_area(set.unit * set.unit / 512.0).max_vertices(3000);
+    let refined = fine.run(&mut c).expect("a mesh");
+    let coarse = refined.coarsen(&mut c, &|_| true, 20.0).expect("as it was");
+    let (quads, mut outcome) = (Quads2::of(&c, &coarse), Outcome::default());
+    quads.corners.iter().for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
+    let corners = quads.triangles.iter().map(|&t| c.mesh().corners(t));
+    corners.for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
     outcome
 }
 
@@ -262,6 +292,13 @@ const PLANE: &[Operation<2>] = &[
     ("mesh by edge", |set| refined(set, Refinement::new().max_edge(set.unit / 16.0))),
     ("mesh by area", |set| refined(set, Refinement::new().max_area(set.unit * set.unit / 512.0))),
     ("mesh of edges", |set| refined(set, Refinement::new().edge(set.unit / 16.0).growth(1.3))),
+    ("mesh of given triangles", |set| kept(set, Refinement::new().min_angle(0.0))),
+    ("mesh of given triangles by angle", |set| kept(set, Refinement::new().min_angle(25.0))),
+    ("mesh made coarser", coarse),
+    ("mesh with layers", |set| {
+        let layers = Layers2::new(set.unit / 64.0, 3);
+        refined(set, Refinement::new().max_edge(set.unit / 8.0).layers(&layers))
+    }),
     ("mesh by size", |set| {
         let size = |[x, y]: [f64; 2]| set.unit / 32.0 + (x.abs() + y.abs()) / 16.0;
         refined(set, Refinement::new().size(&size))
