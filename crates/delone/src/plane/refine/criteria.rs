@@ -180,7 +180,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Triangles are refined as long as this says so, of the corners, counter-clockwise from the shortest side on, and of the area. If
-    /// [`Self::max_vertices`] says nothing, it ends at the larger of 2^21 new vertices and 64 a point; [`Reason::Budget`] tells.
+    /// [`Self::max_vertices`] says nothing, it ends at the larger of 2^21 new vertices and 64 a point; [`super::Reason::Budget`] tells.
     #[must_use]
     pub fn refine_if(self, is_to_be_refined: Test<'a>) -> Self {
         Self { refine_if: Some(is_to_be_refined), ..self }
@@ -279,7 +279,7 @@ impl<'a> Refinement<'a> {
         Self { layers: Some(layers), ..self }
     }
 
-    /// Ends with [`Error::Stopped`] soon after this says so; it is asked now and then.
+    /// Ends with [`crate::Error::Stopped`] soon after this says so; it is asked now and then.
     #[must_use]
     pub fn stop_if(self, stop: &'a dyn Fn() -> bool) -> Self {
         Self { stop: Some(stop), ..self }
@@ -310,7 +310,7 @@ impl<'a> Refinement<'a> {
 
     /// Triangles that are there first, whether they are Delaunay or not, and stay until a new vertex is to come into the circle of one: a
     /// mesh from elsewhere is refined where it has to be, and is itself anywhere else. Edges that only keep triangles are in
-    /// [`Refined2::kept`]. Where lengths of edges are wanted ([`Self::edge`]), or layers, no triangles
+    /// [`super::Refined2::kept`]. Where lengths of edges are wanted ([`Self::edge`]), or layers, no triangles
     /// are kept.
     ///
     /// ```
