@@ -255,7 +255,7 @@ impl Mesh {
     ) -> PyResult<Self> {
         let (plan, size, refine_if) = wishes.plan()?;
         let areas = areas.unwrap_or(Field::Everywhere);
-        let is_function = size.as_ref().is_some_and(|size| size.is_callable());
+        let is_function = size.as_ref().is_some_and(Bound::is_callable);
         let values = match &size {
             Some(values) if !is_function => {
                 Some(values.extract::<PyReadonlyArray1<f64>>()?.as_slice()?.to_vec())

@@ -89,7 +89,7 @@ impl<'py> Asked<'py> {
     pub fn test(&self, function: &Bound<'py, PyAny>, corners: [[f64; 2]; 3], area: f64) -> bool {
         let ask = || {
             let corners = PyArray1::from_slice(self.py, corners.as_flattened()).reshape([3, 2])?;
-            function.call1((corners, area))?.is_truthy()
+            function.call1((corners, area))?.extract()
         };
         self.answer(ask).unwrap_or(false)
     }

@@ -106,11 +106,17 @@ def test_triangles_that_cannot_be_kept():
         ([[0, 1, 2], [0, 1, 3]], ValueError, "triangles cross each other .* near"),
         ([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]], ValueError, "triangle . near .* crosses"),
         ([[0, 1, 1]], ValueError, "no area"),
+        ([[0, 1, 2], [0, 2, 3], [2, 3, 0]], ValueError, "triangle 2 has the corners of an earlier one"),
         ([[0, 1, 4]], IndexError, "triangle 0 has the corners"),
         ([[0.5, 1, 2]], TypeError, "three integers"),
     ):
         with pytest.raises(error, match=words):
             delone.mesh(square, triangles=triangles)
+    nested = [[0, 0], [9, 0], [0, 9], [1, 1], [3, 1], [1, 3]]
+    with pytest.raises(ValueError, match="overlaps"):
+        delone.mesh(nested, triangles=[[0, 1, 2], [3, 4, 5]])
+    with pytest.raises(TypeError, match="bool"):
+        delone.mesh(square, refine_if=lambda corners, area: "no")
     with pytest.raises(delone.CrossingError, match="segments 1 and 2 cross"):
         delone.mesh(square, [[0, 1], [0, 2], [1, 3]], triangles=[[0, 1, 2]])
     with pytest.raises(ValueError, match="say nothing of triangles"):
@@ -150,6 +156,35 @@ def test_meshes_are_made_coarser():
             made.coarsen(marked=marked)
     with pytest.raises(ValueError, match="60"):
         made.coarsen(marked=[0], min_angle=60)
+
+
+def test_points_that_nothing_uses_split_nothing():
+    points, triangles = grid(3)
+    more = np.concatenate([points, [[1.5, 1.25], [0.25, 0.5]]])
+    made = delone.mesh(more, triangles=triangles, min_angle=0)
+    assert rows(made.triangles) == rows(triangles) and (made.points == more).all()
+    finer = made.refine(max_area=0.1)
+    assert (finer.points[: len(more)] == more).all() and finer.area == pytest.approx(9)
+
+
+def test_coarsening_down_to_one_triangle_keeps_it():
+    made = delone.mesh([[0, 0], [3, 0], [0, 3]], max_area=2, min_angle=0, keep="border")
+    assert len(made.triangles) == 3 and made.coarsen(marked=[0, 1, 2], min_angle=0).area == 4.5
+    halves = [[0, 1, 2], [1, 3, 2]]
+    square = [[0, 0], [3, 0], [0, 3], [3, 3]]
+    both = delone.mesh(square, triangles=halves, attributes=[1, 2], max_area=2, min_angle=0, keep="constraints")
+    coarse = both.coarsen(marked=np.arange(len(both.triangles)), min_angle=0)
+    assert [float(coarse.areas[coarse.attributes == k].sum()) for k in (1, 2)] == [4.5, 4.5]
+
+
+def test_layers_are_counted_after_refinement_too():
+    sides = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    walls = delone.Layers(0.01, 5, growth=1.4, segments=[0, 2])
+    made = delone.mesh([[0, 0], [6, 0], [6, 1], [0, 1]], sides, edge=0.2, min_angle=28, layers=walls)
+    finer = made.refine(marked=np.flatnonzero(~made.is_layer)[:9])
+    assert finer.report.layers == made.report.layers
+    with pytest.raises(ValueError, match="empty"):
+        delone.mesh([[0, 0], [6, 0], [6, 1], [0, 1]], sides, layers=delone.Layers(0.01, segments=[]))
 
 
 def test_quadrilaterals():

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._points import as_index
-from ._wishes import flags_of, number_of, positive
+from ._wishes import flags_of, number_of
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Layers:
     growth: float = 1.2
     #: The height of all rows together: fewer rows, if that comes nearer to it.
     thickness: float | None = None
-    #: The segments, by their rows; all of the border, if there are none.
+    #: The segments, by their rows; all of the border if None.
     segments: ArrayLike | None = None
 
 
@@ -50,13 +50,18 @@ def layers_of(layers: Any, segments: int) -> tuple[float, int, float, float | No
     growth = number_of(layers.growth, "layers.growth")
     if not 1 <= growth < np.inf:
         raise ValueError(f"layers.growth must be at least 1 and finite, not {growth}")
-    height, thickness = (
-        None if value is None else float(positive(np.array([number_of(value, what)]), what, True)[0])
-        for value, what in ((layers.first_height, "layers.first_height"), (layers.thickness, "layers.thickness"))
-    )
-    if height is None:
-        raise TypeError("layers.first_height must be a number, not None")
-    chosen = (
-        None if layers.segments is None else np.flatnonzero(flags_of(layers.segments, "layers.segments", segments, "segments"))
-    )
+    height = _height(layers.first_height, "layers.first_height")
+    thickness = None if layers.thickness is None else _height(layers.thickness, "layers.thickness")
+    chosen = None
+    if layers.segments is not None:
+        chosen = np.flatnonzero(flags_of(layers.segments, "layers.segments", segments, "segments"))
+        if not len(chosen):
+            raise ValueError("layers.segments is empty: leave it out for all of the border")
     return height, count, growth, thickness, None if chosen is None else chosen.tolist()
+
+
+def _height(value: Any, what: str) -> float:
+    height = number_of(value, what)
+    if not 0 < height < np.inf:
+        raise ValueError(f"{what} is {height}; it must be positive and finite")
+    return height

@@ -151,14 +151,17 @@ def refined(given: Given, switches: Switches, refine_if: Test | None) -> tuple[M
 def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> tuple[Mesh, Ints, Old]:
     """The triangles that were given stay until a vertex comes near; where they overlap they are made anew, with a warning."""
     old = Old(given)
-    segments, origins = sides_of(given.triangles, given.segments, given.triangle_attributes)
+    is_kept = _once_with_area(given)
+    triangles = np.ascontiguousarray(given.triangles[is_kept])
+    attributes = given.triangle_attributes
+    segments, origins = sides_of(triangles, given.segments, attributes[is_kept] if attributes.size else attributes)
     wishes = _wishes(switches, "even-odd", refine_if)
     if given.triangle_areas is not None:
         wishes["of"] = old.triangulation._core
         wishes["max_areas"] = np.append(given.triangle_areas, np.inf)[old.rows]
     origin = (given.vertices, segments, True)
     try:
-        made = Mesh._make(origin, {**wishes, "triangles": _with_area(given)}, np.empty(0))
+        made = Mesh._make(origin, {**wishes, "triangles": triangles}, np.empty(0))
     except ValueError as error:
         if not str(error).startswith("triangle "):
             raise
@@ -167,11 +170,13 @@ def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> 
     return made, np.append(origins, -1)[made.segment_origin], old
 
 
-def _with_area(given: Given) -> Ints:
-    """The triangles whose corners are not exactly on a line: Triangle leaves others, and they hold nothing."""
+def _once_with_area(given: Given) -> NDArray[np.bool_]:
+    """Which triangles have corners that are not exactly on a line, and are there for the first time. Triangle leaves others, and
+    they hold nothing."""
     corners = given.vertices[given.triangles]
     (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    return np.ascontiguousarray(given.triangles[ux * vy != uy * vx])
+    first = rows_of(given.triangles, given.triangles) == np.arange(len(given.triangles))
+    return np.asarray((ux * vy != uy * vx) & first)
 
 
 def _wishes(switches: Switches, fill: str, refine_if: Test | None) -> Wishes:

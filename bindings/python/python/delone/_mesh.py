@@ -75,7 +75,7 @@ class MeshReport:
     left: NDArray[np.int64]
     #: Why, for each of them: "input angle" where constraints meet at a small angle, "precision" where coordinates are too coarse
     #: for a point that would be needed, "cascade" where points would come nearer and nearer to each other, "budget" for
-    #: `max_vertices`, "kept" for `keep`.
+    #: `max_vertices`, "kept" for `keep`, and beside boundary layers.
     reasons: tuple[str, ...]
     #: Counts of boundary layers. Angles above are those of the other triangles.
     layers: LayerReport
@@ -112,10 +112,24 @@ class Mesh:
         _, firsts, same = np.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)
         first = firsts[same.ravel()]
         corners = np.ascontiguousarray(first[triangles])
+        again = np.flatnonzero(rows_of(corners, corners) != np.arange(len(corners)))
+        if len(again):
+            raise ValueError(f"triangle {again[0]} has the corners of an earlier one")
         sides = sides_of(corners, first[segments], np.empty((0, 0)) if attributes is None else attributes[:, None])
-        origin = (points, sides.segments, split, np.maximum(sides.origins, -1), attributes)
+        # A point that nothing uses, such as the center of a circle, would split a triangle: so it repeats another one.
+        unused = np.ones(len(points), bool)
+        unused[corners], unused[first[segments]] = False, False
+        unused &= first == np.arange(len(points))
+        apart = np.where(unused[:, None], points[corners.ravel()[:1]] if len(corners) else points, points)
+        origin = (np.ascontiguousarray(apart), sides.segments, split, np.maximum(sides.origins, -1), attributes, points)
         try:
-            return cls._make(origin, {**PLAIN, "triangles": corners}, np.empty(0))
+            made = cls._make(origin, {**PLAIN, "triangles": corners}, np.empty(0))
+            missing = np.flatnonzero(rows_of(corners, made.triangles) < 0)
+            centers = np.ascontiguousarray(points[corners[missing]].mean(axis=1))
+            hidden = missing[made._core.rows_at(centers) < 0] if len(missing) else missing
+            if len(hidden):
+                raise ValueError(f"triangle {hidden[0]} overlaps another one")
+            return made
         except CrossingError as error:
             one, other = sides.origins[[error.first, error.second]].tolist()
             x, y = error.near
@@ -166,7 +180,17 @@ class Mesh:
     def points(self) -> NDArray[np.float64]:
         """The points that were given, those that no triangle has included, then those where segments crossed, then new ones:
         (n, 2)."""
-        return self._once("points", self._core.points)
+
+        def make() -> NDArray[np.float64]:
+            points, root = self._core.points(), self
+            while isinstance(root._recipe[0], Mesh):
+                root = root._recipe[0]
+            if root._is_given():
+                given = root._recipe[0][5]
+                points[: len(given)] = given
+            return points
+
+        return self._once("points", make)
 
     @property
     def triangles(self) -> NDArray[np.int64]:
@@ -355,7 +379,7 @@ class Mesh:
         ----------
         marked : array_like of bools, shape (t,), or of integers, optional
             Triangles to refine, by a flag for each or by their rows, as error estimators say: what is in them has at most half of
-            their area.
+            their area. Those of boundary layers stay as they are.
         max_areas : array_like of floats, shape (t,), optional
             The largest areas for what is in each triangle, by the centroids of new triangles. Infinite is no bound.
         min_angle, max_area, max_edge, edge, growth, size, refine_if, max_vertices, keep, conforming, smooth

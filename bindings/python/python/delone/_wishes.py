@@ -134,7 +134,7 @@ def number_of(value: Any, what: str) -> float:
 
 
 def _bound(value: Any, what: str) -> float:
-    return float(positive(np.array([number_of(value, what)]), what)[0])
+    return float(_positive(np.array([number_of(value, what)]), what)[0])
 
 
 def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDArray[np.float64]:
@@ -142,10 +142,10 @@ def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDAr
     array = as_numbers(values, what)
     if array.shape != (count,):
         raise ValueError(f"{what} must have the shape ({count},), one number each, not {array.shape}")
-    return positive(np.array(array, dtype=np.float64), what, finite)
+    return _positive(np.array(array, dtype=np.float64), what, finite)
 
 
-def positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
+def _positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
     wrong = ~(numbers > 0) | (np.isinf(numbers) if finite else False)
     if wrong.any():
         row = int(np.argmax(wrong))

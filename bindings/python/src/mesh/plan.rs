@@ -49,6 +49,9 @@ pub struct Wishes<'py> {
     refine_if: Option<Bound<'py, PyAny>>,
 }
 
+/// A function of Python, or an array, where there is one.
+type Asking<'py> = Option<Bound<'py, PyAny>>;
+
 /// The plan without Python objects.
 #[derive(Clone)]
 pub(super) struct Plan {
@@ -121,7 +124,7 @@ impl<'py> Wishes<'py> {
     }
 
     /// Separates the plain options from the rest.
-    pub(super) fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>)> {
+    pub(super) fn plan(self) -> PyResult<(Plan, Asking<'py>, Asking<'py>)> {
         let region = |row: &[f64]| RegionSeed2::new([row[0], row[1]]).max_area(row[2]);
         if self.regions.shape()[1] != 3 {
             return Err(PyValueError::new_err("regions are rows of three numbers"));

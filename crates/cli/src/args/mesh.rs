@@ -152,7 +152,7 @@ pub(crate) struct MeshArgs {
 #[command(next_help_heading = "Boundary layers")]
 pub(crate) struct LayerArgs {
     /// Height of the first row of thin triangles along the border, as flows need them along walls.
-    #[arg(long, allow_negative_numbers = true, value_name = "HEIGHT")]
+    #[arg(long, allow_negative_numbers = true, value_name = "HEIGHT", conflicts_with = "refine")]
     pub(crate) layer_height: Option<f64>,
     /// Rows [default: 5].
     #[arg(long, value_name = "N", value_parser = count, requires = "layer_height")]

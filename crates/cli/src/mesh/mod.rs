@@ -52,6 +52,10 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
             "leave --histogram out, or name a file",
         ));
     }
+    let is_drawn = |content: &Content| matches!(content, Content::Mesh(Format::Png | Format::Svg));
+    if plan.traits.quads && targets.iter().any(|target| is_drawn(&target.1)) {
+        note(quiet, "pictures show the triangles of quadrilaterals");
+    }
     let by_triangle = args.triangle.as_ref().filter(|_| args.output.is_empty());
     if by_triangle.is_some() {
         names::input(args)?;

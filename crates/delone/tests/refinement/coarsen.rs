@@ -112,6 +112,17 @@ fn it_is_a_function_of_the_input() {
     }
 }
 
+/// A vertex at the centroid of the only triangle that is left of its part.
+#[test]
+fn a_part_of_one_triangle_stays() {
+    let mut c = Constrained2::from_parts(&[[0, 0], [3, 0], [0, 3]], &[]).expect("finite");
+    let wanted = Refinement::new().min_angle(0.0).max_area(2.0).keep(delone::Keep::Border);
+    let refined = wanted.run(&mut c).expect("it ends");
+    assert_eq!(refined.report.triangles, 3);
+    let coarse = refined.coarsen(&mut c, &|_| true, 0.0).expect("as it was");
+    assert_eq!((coarse.report.triangles, area(&c, |t| coarse.domains.is_inside(t))), (1, 4.5));
+}
+
 #[test]
 fn meshes_of_before_are_refused() {
     let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[]).expect("finite");

@@ -51,9 +51,12 @@ pub(crate) fn read(mut source: Box<dyn Source>, beside: Option<Beside>) -> Resul
 fn names(comments: &[String]) -> Result<Names, Error> {
     let mut names = Names::default();
     for comment in comments {
-        let mut words = comment.splitn(3, char::is_whitespace);
-        let [Some(kind), Some(number), Some(name)] = [(); 3].map(|()| words.next()) else { continue };
-        match (kind, number.parse(), number.parse()) {
+        let comment = comment.trim();
+        let Some((kind, rest)) = comment.split_once(char::is_whitespace) else { continue };
+        let parts = |c: char| c.is_whitespace() || c == '=' || c == ':';
+        let Some((number, name)) = rest.trim().split_once(parts) else { continue };
+        let name = name.trim_start_matches(parts);
+        match (&kind.to_ascii_lowercase()[..], number.parse(), number.parse()) {
             ("boundary", Ok(marker), _) => names.name_boundary(marker, name)?,
             ("region", _, Ok(number)) => names.name_region(number, name)?,
             _ => {}

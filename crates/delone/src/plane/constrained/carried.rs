@@ -40,6 +40,8 @@ impl Constrained2 {
             let holding = place.and_then(|at| match old.locate(at) {
                 Ok(Location2::Triangle(t)) => domains.part(t),
                 Ok(Location2::Edge(e)) => domains.part(e.triangle()),
+                // One that went: no constraint passes strictly inside of a triangle, so all around it is of one part.
+                Ok(Location2::Vertex(v)) => old.mesh().star(v).find_map(|e| domains.part(e.triangle())),
                 _ => None,
             });
             part.get_or_insert(holding);

@@ -138,6 +138,8 @@ pub struct Domains2 {
     pub(in crate::plane) kept: Vec<SegmentId>,
     /// The lines and ribs of boundary layers.
     pub(in crate::plane) layered: Vec<SegmentId>,
+    /// Of layers: their vertices, the most rows, places, and how many of these have fewer.
+    pub(in crate::plane) layer_counts: [usize; 4],
 }
 
 /// A region.

@@ -124,6 +124,8 @@ impl Refinement<'_> {
         report.inside += grown.inside;
         report.on_constraints += grown.on_constraints;
         report.layers = LayerReport2 { triangles: report.layers.triangles, ..grown.report };
+        let LayerReport2 { vertices, rows, places, shortened, .. } = report.layers;
+        refined.domains.layer_counts = [vertices, rows, places, shortened];
         Ok(refined)
     }
 
@@ -157,7 +159,9 @@ impl Refinement<'_> {
         }
         let done = mesher.finish();
         let added = c.end_refinement(&before, &done.new)?;
-        let report = survey::report(c.layer(), &rules, added, &done);
+        let mut report = survey::report(c.layer(), &rules, added, &done);
+        let [vertices, rows, places, shortened] = domains.layer_counts;
+        report.layers = LayerReport2 { vertices, rows, places, shortened, ..report.layers };
         let mut domains = c.domains_of_tags(&before, domains);
         c.note_kept(&mut domains, &done.kept)?;
         ran?;

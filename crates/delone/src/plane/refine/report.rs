@@ -30,7 +30,7 @@ impl Reason {
             Self::Precision => "out of precision",
             Self::Cascade => "would never end",
             Self::Budget => "no more vertices allowed",
-            Self::Kept => "constraint is to be kept",
+            Self::Kept => "beside a constraint or a layer that is kept",
         }
     }
 }
