@@ -160,11 +160,17 @@ def test_meshes_are_made_coarser():
 
 def test_points_that_nothing_uses_split_nothing():
     points, triangles = grid(3)
-    more = np.concatenate([points, [[1.5, 1.25], [0.25, 0.5]]])
-    made = delone.mesh(more, triangles=triangles, min_angle=0)
-    assert rows(made.triangles) == rows(triangles) and (made.points == more).all()
-    finer = made.refine(max_area=0.1)
-    assert (finer.points[: len(more)] == more).all() and finer.area == pytest.approx(9)
+    centers = [[1.5, 1.25], [0.25, 0.5]]
+    for more, corners in (
+        (np.concatenate([points, centers]), triangles),
+        (np.concatenate([centers, points]), triangles + 2),
+        (np.concatenate([points[:1], centers, points[1:]]), np.where(triangles > 0, triangles + 2, 0)),
+    ):
+        made = delone.mesh(more, triangles=corners, min_angle=0)
+        assert rows(made.triangles) == rows(corners) and (made.points == more).all()
+        finer = made.refine(max_area=0.1)
+        assert (finer.points[: len(more)] == more).all() and finer.area == pytest.approx(9)
+        assert finer.areas.min() > 0
 
 
 def test_coarsening_down_to_one_triangle_keeps_it():

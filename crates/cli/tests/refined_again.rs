@@ -105,3 +105,20 @@ fn triangles_stay_where_nothing_has_to_change() {
     );
     place.fail("mesh g.node --rebuild -o d.vtu", 2, "--refine");
 }
+
+/// Gmsh's files have the centers of circles among their points.
+#[test]
+fn points_that_nothing_has_split_nothing() {
+    let place = Place::new();
+    place.file("c.node", "5 2 0 0\n1 2.5 1\n2 0 0\n3 4 0\n4 4 3\n5 0 3\n");
+    place.file("c.ele", "2 3 0\n1 2 3 4\n2 2 4 5\n");
+    for options in ["", "--rebuild "] {
+        place.succeed(&format!("-q mesh c.node --refine c.ele --min-angle 0 {options}-o d.node -o d.ele"));
+        let made = mesh(&place, "d");
+        assert_eq!((made.triangles.len(), made.points.len(), made.points[0]), (2, 5, [2.5, 1.0]));
+    }
+    place.succeed("-q mesh c.node --refine c.ele --max-area 1 -o d.node -o d.ele");
+    assert!((mesh(&place, "d").area() - 12.0).abs() < 1e-12);
+    place.succeed("-q mesh c.node --refine c.ele --max-area 1 --drop-unused -o d.node -o d.ele");
+    assert!((mesh(&place, "d").area() - 12.0).abs() < 1e-12);
+}

@@ -116,12 +116,18 @@ class Mesh:
         if len(again):
             raise ValueError(f"triangle {again[0]} has the corners of an earlier one")
         sides = sides_of(corners, first[segments], np.empty((0, 0)) if attributes is None else attributes[:, None])
-        # A point that nothing uses, such as the center of a circle, would split a triangle: so it repeats another one.
+        # A point that nothing uses, such as the center of a circle, would split a triangle: so it is put outside of all.
         unused = np.ones(len(points), bool)
         unused[corners], unused[first[segments]] = False, False
         unused &= first == np.arange(len(points))
-        apart = np.where(unused[:, None], points[corners.ravel()[:1]] if len(corners) else points, points)
-        origin = (np.ascontiguousarray(apart), sides.segments, split, np.maximum(sides.origins, -1), attributes, points)
+        apart = points.copy()
+        if len(corners) and unused.any():
+            used = points[corners.ravel()]
+            with np.errstate(over="ignore"):
+                outside = used.max(axis=0) + np.ptp(used, axis=0).max()
+            if np.isfinite(outside).all():
+                apart[unused] = outside
+        origin = (apart, sides.segments, split, np.maximum(sides.origins, -1), attributes, points)
         try:
             made = cls._make(origin, {**PLAIN, "triangles": corners}, np.empty(0))
             missing = np.flatnonzero(rows_of(corners, made.triangles) < 0)

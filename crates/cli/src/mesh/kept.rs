@@ -39,6 +39,15 @@ impl<'a> Kept<'a> {
         Self { all, is_inside, triangles, points, old, new, edges: OnceLock::new() }
     }
 
+    /// Puts points that no triangle has back to where they were.
+    pub(super) fn put_back(&mut self, apart: &[(usize, [f64; 2])]) {
+        for &(i, place) in apart {
+            if let Some(v) = self.new[i] {
+                self.points[v.index()] = place;
+            }
+        }
+    }
+
     /// The name of a vertex here.
     pub(super) fn name(&self, v: VertexId) -> Option<VertexId> {
         self.new[v.index()]

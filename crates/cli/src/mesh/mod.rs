@@ -100,7 +100,8 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
         };
         note(quiet, format_args!("nothing is inside: {why}; see --fill and --convex"));
     }
-    let kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
+    let mut kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
+    kept.put_back(made.again.as_ref().map_or(&[], Again::apart));
     tell::count(report, kept.points.len(), &mut stats);
     if args.input.stats.is_some() || plan.edge.is_some() {
         tell::shapes(&Shapes2::of(c, &made.refined.domains), &mut stats);

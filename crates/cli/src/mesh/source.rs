@@ -178,6 +178,7 @@ impl Sources {
                 Some(areas)
             }
         };
+        let apart = set_apart(graph, &corners);
         let elements = Elements::of(path, &graph.cloud.xy, triangles)?;
         let mut sides: Vec<([usize; 2], usize)> = Vec::with_capacity(3 * triangles.len());
         for (row, &[a, b, c]) in triangles.iter().enumerate() {
@@ -196,8 +197,29 @@ impl Sources {
         }
         add_between(graph, &between);
         add_border(graph, &border);
-        Ok(Again { elements, attributes, areas, is_rebuilt: self.is_rebuilt })
+        Ok(Again { elements, attributes, areas, is_rebuilt: self.is_rebuilt, apart })
     }
+}
+
+/// Points that no triangle and no segment has, such as centers of circles, would split the triangle that they are in. So they are outside
+/// of all from here on, by the largest extent. Gives them with their places.
+fn set_apart(graph: &mut Graph, corners: &[usize]) -> Vec<(usize, [f64; 2])> {
+    let mut is_used = vec![false; graph.cloud.xy.len()];
+    corners.iter().chain(graph.segments.as_flattened()).for_each(|&i| is_used[i] = true);
+    let unused: Vec<usize> = (0..is_used.len()).filter(|&i| !is_used[i]).collect();
+    let bound = |k: usize, of: fn(f64, f64) -> f64, start: f64| {
+        corners.iter().map(|&i| graph.cloud.xy[i][k]).fold(start, of)
+    };
+    let high = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY));
+    let low = [0, 1].map(|k| bound(k, f64::min, f64::INFINITY));
+    let extent = (high[0] - low[0]).max(high[1] - low[1]);
+    let outside = high.map(|x| x + extent);
+    if !outside.iter().all(|x| x.is_finite()) {
+        return Vec::new();
+    }
+    let apart = unused.iter().map(|&i| (i, graph.cloud.xy[i])).collect();
+    unused.into_iter().for_each(|i| graph.cloud.xy[i] = outside);
+    apart
 }
 
 /// Makes these sides segments, if they are not.
@@ -250,9 +272,16 @@ pub(super) struct Again {
     areas: Option<Vec<Option<f64>>>,
     /// Whether its triangles are made anew.
     is_rebuilt: bool,
+    /// Points that nothing has, with their places.
+    apart: Vec<(usize, [f64; 2])>,
 }
 
 impl Again {
+    /// Points that nothing has, with their places.
+    pub(super) fn apart(&self) -> &[(usize, [f64; 2])] {
+        &self.apart
+    }
+
     /// The triangles that stay until a vertex comes near.
     pub(super) fn kept(&self) -> &[[VertexId; 3]] {
         if self.is_rebuilt { &[] } else { self.elements.corners() }
