@@ -43,7 +43,19 @@ fn few_triangles_are_left() {
         let part = quads.triangles.len() as f64 / refined.report.triangles as f64;
         assert!(part < largest_part, "{edge}: {part}");
     }
-    // Squares that are cut in two become squares again.
+    // Parallelograms that are cut in two become parallelograms again, whatever their unit; those with sharp angles do not.
+    for (unit, lean) in [(1.0, 0.0), (2f64.powi(-700), 0.0), (2f64.powi(900), 0.0), (2f64.powi(700), 4.0)] {
+        let at = |i: i32| [f64::from(i % 9) + lean * f64::from(i / 9), f64::from(i / 9)];
+        let points: Points = (0..81).map(|i| at(i).map(|x| x * unit)).collect();
+        let corners: Vec<_> =
+            (0..72).filter(|i| i % 9 < 8).flat_map(|i| [[i, i + 1, i + 9], [i + 1, i + 10, i + 9]]).collect();
+        let given: Vec<_> = corners.iter().map(|corners| corners.map(VertexId::new)).collect();
+        let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
+        let kept = Refinement::new().min_angle(0.0).triangles(&given).run(&mut c).expect("it ends");
+        let quads = Quads2::of(&c, &kept);
+        let expected = if lean > 0.0 { 0 } else { 64 };
+        assert_eq!(quads.corners.len(), expected, "{unit:e}");
+    }
     let points: Points = (0..81).map(|i| [f64::from(i % 9), f64::from(i / 9)]).collect();
     let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
     let refined = Refinement::new().min_angle(0.0).run(&mut c).expect("it ends");

@@ -1,4 +1,4 @@
-//! Triangles that were given stay until a new vertex comes into their circle.
+//! Triangles that were given stay until a new vertex is to come into their circle.
 //!
 //! Their edges are fixed without being constraints. Where a point is to become a vertex, the fixed edges go that are on the border of its cavity
 //! and behind which it is in conflict, and what is around them is made Delaunay again. So the triangulation is at all times the constrained
@@ -71,10 +71,11 @@ impl Mesher<'_> {
         self.dig(q, seed);
         let mesh = &self.layer.mesh;
         let is_parting = |e: &EdgeId| {
-            let corners = [mesh.tail(*e), mesh.head(*e), mesh.tip(*e)];
-            let is_real = corners.iter().all(|v| !v.is_ghost());
-            let [a, b, c] = corners.map(|v| if is_real { self.point(v) } else { q });
-            mesh.is_fixed(*e) && is_real && self.is_kept(*e) && in_circle(a, b, c, q).is_positive()
+            if mesh.tip(*e).is_ghost() || !mesh.is_fixed(*e) || !self.is_kept(*e) {
+                return false;
+            }
+            let [a, b, c] = [mesh.tail(*e), mesh.head(*e), mesh.tip(*e)].map(|v| self.point(v));
+            in_circle(a, b, c, q).is_positive()
         };
         let going = self.layer.cavity.border().iter().map(|edge| edge.1).filter(is_parting).collect();
         self.abandon();

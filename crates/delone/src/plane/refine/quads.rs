@@ -12,7 +12,6 @@ use std::collections::{BTreeSet, BinaryHeap};
 use delone_predicates::orient2d;
 
 use super::Refined2;
-use super::shape::squared;
 use crate::ids::{EdgeId, TriangleId, VertexId};
 use crate::plane::Constrained2;
 
@@ -107,12 +106,12 @@ impl<'a> Pairing<'a> {
             if !orient2d(before, at, after).is_positive() {
                 return None;
             }
-            let (u, v) = ([after[0] - at[0], after[1] - at[1]], [before[0] - at[0], before[1] - at[1]]);
-            let dot = u[0] * v[0] + u[1] * v[1];
-            let cosine = dot / (squared(at, after).sqrt() * squared(at, before).sqrt());
-            worst = worst.max(cosine * cosine);
+            let (u, v) = (direction(at, after), direction(at, before));
+            let (dot, of_u) = (u[0] * v[0] + u[1] * v[1], u[0] * u[0] + u[1] * u[1]);
+            let square = dot * dot / (of_u * (v[0] * v[0] + v[1] * v[1]));
+            worst = if square <= LARGEST_SQUARED_COSINE { worst.max(square) } else { return None };
         }
-        (worst <= LARGEST_SQUARED_COSINE).then_some(worst)
+        Some(worst)
     }
 
     /// The edges across which a triangle may be paired still.
@@ -177,6 +176,14 @@ impl<'a> Pairing<'a> {
             triangles: self.inside().filter(|t| !self.is_paired[t.index()]).collect(),
         }
     }
+}
+
+/// From one point towards another one, with a largest coordinate of one: so that squares stay in the range of numbers.
+fn direction(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    // Halves, because a difference may be too large.
+    let d = [0, 1].map(|k| 0.5 * to[k] - 0.5 * from[k]);
+    let largest = d[0].abs().max(d[1].abs());
+    d.map(|x| x / largest)
 }
 
 /// A number whose order is that of the given one.
