@@ -1,5 +1,6 @@
 //! Sources of a mesh: files as they are named, or as Triangle finds them beside each other.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use delone::VertexId;
@@ -202,11 +203,14 @@ impl Sources {
 }
 
 /// Points that no triangle and no segment has, such as centers of circles, would split the triangle that they are in. So they are outside
-/// of all from here on, by the largest extent. Gives them with their places.
+/// of all from here on, by the largest extent. Gives them with their places. Points at the place of a corner stay: they are its vertex.
 fn set_apart(graph: &mut Graph, corners: &[usize]) -> Vec<(usize, [f64; 2])> {
     let mut is_used = vec![false; graph.cloud.xy.len()];
     corners.iter().chain(graph.segments.as_flattened()).for_each(|&i| is_used[i] = true);
-    let unused: Vec<usize> = (0..is_used.len()).filter(|&i| !is_used[i]).collect();
+    let place = |i: usize| graph.cloud.xy[i].map(|x| (x + 0.0).to_bits());
+    let places: HashSet<[u64; 2]> = (0..is_used.len()).filter(|&i| is_used[i]).map(place).collect();
+    let unused: Vec<usize> =
+        (0..is_used.len()).filter(|&i| !is_used[i] && !places.contains(&place(i))).collect();
     let bound = |k: usize, of: fn(f64, f64) -> f64, start: f64| {
         corners.iter().map(|&i| graph.cloud.xy[i][k]).fold(start, of)
     };
