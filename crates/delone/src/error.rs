@@ -180,6 +180,14 @@ pub enum Error {
         /// The fault.
         flaw: &'static str,
     },
+    /// A segment cannot be the chord of an arc with the center that it is given.
+    #[error("segment {segment} is no chord of an arc around its center: {problem}")]
+    Arc {
+        /// The index of the segment.
+        segment: usize,
+        /// The fault.
+        problem: ArcProblem,
+    },
     /// Location by history or by the Delaunay tree is for Delaunay triangulations.
     #[error("a triangulation with constraints cannot be located by history or by the Delaunay tree")]
     OnlyDelaunay,
@@ -280,6 +288,27 @@ fn others(count: usize) -> String {
         2 => ", and so does another pair".to_owned(),
         _ => format!(", and so do {} other pairs", count - 1),
     }
+}
+
+/// A fault of an arc.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArcProblem {
+    /// A coordinate is NaN or infinite.
+    #[error("a coordinate is not finite")]
+    NotFinite,
+    /// The center is on the line through both ends.
+    #[error("the center is in line with its ends; an arc turns by less than half a turn")]
+    HalfTurn,
+    /// The ends are not at equal distances from the center, by this factor.
+    #[error("one end is {0} times as far from the center as the other")]
+    Radii(f64),
+    /// Another arc has the same chord.
+    #[error("another arc has the same chord")]
+    Repeated,
+    /// There is no such segment.
+    #[error("there is no such segment")]
+    NoSegment,
 }
 
 /// A fault of the border of a tile.

@@ -146,7 +146,7 @@ mod weight;
 pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, Manifold3, OutlinePart};
 pub use around::{Around, Surround};
 pub use decimal::DecimalGrid;
-pub use error::{BorderProblem, Error, LatticeProblem, RegionProblem};
+pub use error::{ArcProblem, BorderProblem, Error, LatticeProblem, RegionProblem};
 pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{
@@ -167,7 +167,7 @@ pub use periodic::{
 };
 pub use plane::check::Flaw2;
 pub use plane::{
-    Algorithm2, Cell2, Cells2, Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings,
+    Algorithm2, Arc2, Cell2, Cells2, Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings,
     Delaunay2, DiskEdges2, Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Jacobian2, Keep,
     LayerReport2, Layers2, Location2, Moving2, NearestSites2, OrderCells2, OrderCircle2, OrderK2,
     OrderRegion2, Part2, PolygonTriangles2, Polygons2, Power2, Prescribed2, Quads2, Reason, Refined2,

@@ -1,6 +1,7 @@
 //! Delaunay triangulations of the plane, and what is made of them.
 
 mod alpha;
+mod arc;
 mod around;
 mod change;
 pub(crate) mod check;
@@ -28,6 +29,7 @@ mod triangulation;
 pub(crate) mod verify;
 mod voronoi;
 
+pub use arc::Arc2;
 pub use constrained::{
     Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Part2,
     PolygonTriangles2, Polygons2, RegionSeed2, Seeds2, SegmentEnds, SegmentId,

@@ -1,6 +1,7 @@
 //! Refinement: what it promises, judged by big integers; the same mesh whatever the order; an end whatever the input.
 
 mod again;
+mod arcs;
 mod bounds;
 mod coarsen;
 mod ends;

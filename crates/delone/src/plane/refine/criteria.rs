@@ -3,7 +3,7 @@
 use super::layers::Layers2;
 use super::rules::{Field, Test};
 use crate::ids::VertexId;
-use crate::plane::constrained::Fill;
+use crate::plane::constrained::{Fill, SegmentId};
 
 /// The default of [`Refinement::growth`]. On the twenty geometries of `compare/with_gmsh.py` 1.1 makes 1.55 times as many triangles in all,
 /// 1.3 0.87 times, 1.5 0.74 times; the largest steps there are 1.35, 1.5, 1.7 and 2.1 from one triangle to the next.
@@ -57,6 +57,7 @@ pub struct Refinement<'a> {
     pub(super) watch: Option<&'a dyn Fn(usize)>,
     pub(super) fill: Fill<'a>,
     pub(super) triangles: &'a [[VertexId; 3]],
+    pub(super) arcs: &'a [(SegmentId, [f64; 2])],
 }
 
 impl std::fmt::Debug for Refinement<'_> {
@@ -105,6 +106,7 @@ impl<'a> Refinement<'a> {
             watch: None,
             fill: Fill::All,
             triangles: &[],
+            arcs: &[],
         }
     }
 
@@ -326,5 +328,26 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn triangles(self, triangles: &'a [[VertexId; 3]]) -> Self {
         Self { triangles, ..self }
+    }
+
+    /// Segments that are chords of arcs, with the centers of their circles ([`crate::Arc2`]): new vertices on them are on the arcs, which may be any of
+    /// less than half a turn. Beside an arc of more than 11 degrees other vertices may be in the way: divide it before
+    /// ([`crate::Arc2::inner_points`]).
+    ///
+    /// ```
+    /// use delone::{Arc2, Constrained2, Refinement, SegmentId};
+    ///
+    /// let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    /// let mut c = Constrained2::from_parts(&corners, &[[0, 1], [1, 2], [2, 3], [3, 0]])?;
+    /// let arcs: Vec<_> = (0..4).map(|s| (SegmentId::new(s), [0.0, 0.0])).collect();
+    /// let made = Refinement::new().edge(0.1).arcs(&arcs).run(&mut c)?;
+    /// let inside = c.triangle_ids().filter(|&t| made.domains.is_inside(t));
+    /// let area: f64 = inside.map(|t| c.area(t)).sum();
+    /// assert!((3.13..std::f64::consts::PI).contains(&area)); // a disk
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[must_use]
+    pub fn arcs(self, arcs: &'a [(SegmentId, [f64; 2])]) -> Self {
+        Self { arcs, ..self }
     }
 }

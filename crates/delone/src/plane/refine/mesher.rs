@@ -9,6 +9,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::arcs::Centers;
 use super::queue::{Fault, Queue, Task};
 use super::report::Reason;
 use super::rules::Rules;
@@ -92,6 +93,8 @@ pub(super) struct Mesher<'a> {
     pub(super) left: Vec<([Place; 3], Reason)>,
     /// Fixed edges that are no constraints: they keep triangles that were given, until a vertex comes into the circle of one.
     pub(super) kept: BTreeSet<[Place; 2]>,
+    /// The centers of the arcs that input constraints are chords of.
+    pub(super) arcs: Centers<Place>,
 }
 
 /// The result of a refinement.
@@ -139,6 +142,7 @@ impl<'a> Mesher<'a> {
             refused: BTreeMap::new(),
             left: Vec::new(),
             kept: BTreeSet::new(),
+            arcs: Centers::new(),
         }
     }
 

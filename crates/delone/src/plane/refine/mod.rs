@@ -13,6 +13,7 @@
 //!
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
+mod arcs;
 mod coarsen;
 mod criteria;
 mod free;
@@ -20,6 +21,7 @@ mod frontal;
 mod kept;
 mod layers;
 mod mesher;
+mod middles;
 mod quads;
 mod queue;
 mod report;
@@ -82,7 +84,7 @@ impl Refinement<'_> {
     /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] and
     /// [`Error::Parts`] as [`Constrained2::domains`]; nothing has changed then. [`Error::Size`] if a bound that is asked for a place
     /// is not positive, [`Error::Stopped`]: the triangulation is a valid one then, refined in part. [`Error::KeptTriangle`] and
-    /// [`Error::NoSuchVertex`] for triangles that cannot be kept; nothing has changed.
+    /// [`Error::NoSuchVertex`] for triangles that cannot be kept, [`Error::Arc`] for arcs that are none; nothing has changed.
     ///
     /// ```
     /// use delone::{Constrained2, Refinement};
@@ -134,6 +136,7 @@ impl Refinement<'_> {
         self.check_count(c, &domains)?;
         let is_frontal = self.edge.is_some() || self.edge_at.is_some();
         let triangles = if is_frontal { &[] } else { self.triangles };
+        let chords = arcs::chords(c, self.arcs, &domains.origins)?;
         let original = (!triangles.is_empty()).then(|| c.clone());
         c.close(&domains)?;
         let known = c.take_kept(&domains.kept);
@@ -150,13 +153,14 @@ impl Refinement<'_> {
         let layer = c.layer();
         let bounds = bounds(&layer.points).0;
         let queue = Queue::new(&bounds, self.min_angle > STEEP_ANGLE);
-        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins).keeping(kept);
+        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins).keeping(kept).along(&chords);
         let mut ran =
             if is_frontal { Frontal::new(&mut mesher, &bounds, self.growth).run() } else { mesher.run() };
         if self.smoothing > 0 && ran.is_ok() {
             (0..self.smoothing).for_each(|_| mesher.smooth());
             ran = mesher.run();
         }
+        ran = ran.and_then(|()| mesher.flatten_arcs());
         let done = mesher.finish();
         let added = c.end_refinement(&before, &done.new)?;
         let mut report = survey::report(c.layer(), &rules, added, &done);

@@ -8,7 +8,7 @@
 //! A point is rounded, and may be beside the line by a unit in the last place. It must be strictly inside of the triangle that it is
 //! in: so both halves are clear of every vertex, and everything stays positive.
 
-use delone_predicates::{Sign, lexicographic, orient2d};
+use delone_predicates::{Sign, angle, lexicographic, orient2d};
 
 use super::mesher::{Known, Mesher, shared};
 use super::report::Reason;
@@ -31,7 +31,7 @@ impl Mesher<'_> {
         }
         let meets = self.meets(e);
         let mut e = e;
-        if !self.rules.conforming && meets == [false; 2] {
+        if (!self.rules.conforming && meets == [false; 2]) || self.arc(self.ends(e)).is_some() {
             e = self.clear(e);
         }
         let wanted = self.where_to_split(e, meets);
@@ -51,10 +51,11 @@ impl Mesher<'_> {
     /// Splits a constraint at a place for the sake of a size, if that is possible, and looks at nothing.
     pub(super) fn divide(&mut self, e: EdgeId, q: [f64; 2]) -> Option<Place> {
         // The ends of a piece are rounded too: what is beside its input constraint by less than they are is beside the piece by more.
-        let [a, b] = self.ends(e).map(|v| self.point(v));
+        let ends = self.ends(e);
+        let [a, b] = ends.map(|v| self.point(v));
         let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
         let part = (u[0] * w[0] + u[1] * w[1]) / squared(a, b);
-        let on_piece = [0, 1].map(|k| a[k] + part * u[k]);
+        let on_piece = self.arc(ends).map_or_else(|| [0, 1].map(|k| a[k] + part * u[k]), |arc| arc.at(part));
         let mut places = std::iter::once(q).chain(around(q)).chain([on_piece]).chain(around(on_piece));
         let q = places.find(|&q| self.is_clear(e, q))?;
         let v = self.insert_on(e, q, true)?;
@@ -111,10 +112,14 @@ impl Mesher<'_> {
             return self.on_ring(tip, on, ends);
         }
         let [a, b] = ends.map(|v| self.point(v));
+        let arc = self.arc(ends);
         if meets[0] == meets[1] {
-            return [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
+            return arc.map_or_else(|| [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]), |arc| arc.middle());
         }
         let length = squared(a, b).sqrt();
+        if let Some(arc) = arc {
+            return arc.at_distance(meets[1], shell(length));
+        }
         let part = shell(length) / length;
         let (from, to) = if meets[0] { (a, b) } else { (b, a) };
         [0, 1].map(|k| from[k] + part * (to[k] - from[k]))
@@ -180,6 +185,9 @@ impl Mesher<'_> {
             step *= 0.5;
         }
         let ring = (high / step).floor() * step;
+        if let Some(arc) = self.arc(on) {
+            return arc.at_distance(on[1] == tip, ring);
+        }
         let other = self.point(if on[0] == tip { on[1] } else { on[0] });
         let part = ring / squared(from, other).sqrt();
         [0, 1].map(|k| from[k] + part * (other[k] - from[k]))
@@ -191,7 +199,9 @@ impl Mesher<'_> {
         let mesh = &self.layer.mesh;
         let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
         let is_between = |k: usize| q[k] >= a[k].min(b[k]) && q[k] <= a[k].max(b[k]);
-        if !is_between(0) || !is_between(1) || q == a || q == b {
+        let is_arc = self.arc(self.ends(e)).is_some();
+        let is_beside = if is_arc { angle(q, a, b).is_negative() } else { is_between(0) && is_between(1) };
+        if !is_beside || q == a || q == b {
             return false;
         }
         let is_left_of =
@@ -199,7 +209,9 @@ impl Mesher<'_> {
         let is_strict = |side: EdgeId| {
             mesh.is_ghost(side.triangle()) || (is_left_of(side.next()) && is_left_of(side.previous()))
         };
-        let is_strict_or_outside = |side: EdgeId| !self.is_inside(side.triangle()) || is_strict(side);
+        // Of an arc, the triangle on the other side stays.
+        let is_strict_or_outside =
+            |side: EdgeId| is_arc || !self.is_inside(side.triangle()) || is_strict(side);
         let f = mesh.twin(e);
         match orient2d(a, b, q) {
             Sign::Positive => is_strict(e) && is_strict_or_outside(f),
@@ -249,7 +261,7 @@ impl Mesher<'_> {
     }
 
     /// The input constraint that an edge with these ends is of.
-    fn input_of(&self, ends: [Place; 2]) -> [Place; 2] {
+    pub(super) fn input_of(&self, ends: [Place; 2]) -> [Place; 2] {
         let known = ends.map(|v| self.known[v.index()]);
         known.into_iter().find(|known| !known.is_input() && !known.is_free()).map_or(ends, |known| known.on)
     }

@@ -115,6 +115,9 @@ impl Frontal<'_, '_> {
 
     /// A place on a constraint.
     fn on(&self, line: &Line, part: f64) -> [f64; 2] {
+        if let Some(arc) = self.mesher.arc(line.ends) {
+            return arc.at(part);
+        }
         let [a, b] = line.ends.map(|end| self.point(end));
         [0, 1].map(|k| a[k] + part * (b[k] - a[k]))
     }
