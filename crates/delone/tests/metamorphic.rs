@@ -6,11 +6,15 @@
 
 use delone::surface::{Contours, Interpolator, Levels, Outside, gradients};
 use delone::{
-    Constrained2, Crossings, Delaunay2, Delaunay3, Error, Fill, Furthest2, Graph, Hull2, Layers2, Quads2,
-    Refinement, Region2, Regular2, Regular3, Relaxation2, VertexId, VoronoiEdge2,
+    Constrained2, Crossings, Delaunay2, Delaunay3, Furthest2, Graph, Hull2, Layers2, Refinement, Region2,
+    Regular2, Regular3, Relaxation2, VoronoiEdge2,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::share;
+
+mod meshes;
+
+use meshes::{coarse, curved, kept, refined, segments};
 
 /// Points of the plane, or of space, with what else operations need.
 #[derive(Clone)]
@@ -95,64 +99,6 @@ fn window(set: &Set<2>) -> Region2 {
     let outer =
         vec![[-0.25 * u, -0.125 * u], [1.25 * u, 0.0], [1.125 * u, 1.25 * u], [0.5 * u, 0.5 * u], [0.0, u]];
     Region2::polygon(&[outer]).expect("a polygon")
-}
-
-/// Segments between points that are neighbors in their order along a line: some cross.
-fn segments(set: &Set<2>) -> Vec<[usize; 2]> {
-    let mut by_sum: Vec<usize> = (0..set.points.len()).collect();
-    by_sum.sort_by(|&i, &j| {
-        let [p, q] = [i, j].map(|i| set.points[i]);
-        (p[0] + p[1] / 4.0).total_cmp(&(q[0] + q[1] / 4.0)).then(order(&[p], &[q]))
-    });
-    by_sum.dedup_by_key(|i| set.points[*i].map(f64::to_bits));
-    by_sum
-        .chunks_exact(5)
-        .map(|five| [five[0], five[3]])
-        .filter(|[i, j]| set.points[*i] != set.points[*j])
-        .collect()
-}
-
-fn refined(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
-    let mut c =
-        Constrained2::with_crossings(&set.points, &segments(set), Crossings::Split).expect("segments");
-    let refined = how.fill(Fill::All).max_vertices(3000).run(&mut c).expect("a mesh");
-    let mut outcome = Outcome::default();
-    for t in c.triangle_ids() {
-        outcome.set(c.mesh().corners(t).map(|v| c.point(v)).to_vec());
-    }
-    outcome.measure(&[], refined.report.smallest_angle, 0);
-    outcome.measure(&[], refined.report.left.len() as f64, 0);
-    outcome
-}
-
-/// Triangles that are Delaunay where everything leans, and so are not Delaunay here.
-fn leaning(set: &Set<2>) -> Vec<[VertexId; 3]> {
-    let leaning: Vec<[f64; 2]> = set.points.iter().map(|[x, y]| [x + 2.0 * y, *y]).collect();
-    Delaunay2::from_points(&leaning).expect("finite").triangles().collect()
-}
-
-/// A mesh of triangles that are given. Coordinates that lean are rounded, so that it may be refused.
-fn kept(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
-    let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
-    let mut outcome = Outcome::default();
-    match how.max_vertices(3000).triangles(&leaning(set)).run(&mut c) {
-        Ok(_) => c.triangles().for_each(|t| outcome.set(t.map(|v| c.point(v)).to_vec())),
-        Err(error) => assert!(matches!(error, Error::KeptTriangle { .. }), "{error}"),
-    }
-    outcome
-}
-
-/// A mesh, made coarser, in quadrilaterals and the triangles that are left.
-fn coarse(set: &Set<2>) -> Outcome<2> {
-    let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
-    let fine = Refinement::new().max_area(set.unit * set.unit / 512.0).max_vertices(3000);
-    let refined = fine.run(&mut c).expect("a mesh");
-    let coarse = refined.coarsen(&mut c, &|_| true, 20.0).expect("as it was");
-    let (quads, mut outcome) = (Quads2::of(&c, &coarse), Outcome::default());
-    quads.corners.iter().for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
-    let corners = quads.triangles.iter().map(|&t| c.mesh().corners(t));
-    corners.for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
-    outcome
 }
 
 fn cells<'a>(found: impl Iterator<Item = ([f64; 2], delone::Cell2<'a>)>) -> Outcome<2> {
@@ -292,6 +238,8 @@ const PLANE: &[Operation<2>] = &[
     ("mesh by edge", |set| refined(set, Refinement::new().max_edge(set.unit / 16.0))),
     ("mesh by area", |set| refined(set, Refinement::new().max_area(set.unit * set.unit / 512.0))),
     ("mesh of edges", |set| refined(set, Refinement::new().edge(set.unit / 16.0).growth(1.3))),
+    ("mesh along arcs", |set| curved(set, Refinement::new().min_angle(25.0))),
+    ("mesh of edges along arcs", |set| curved(set, Refinement::new().edge(set.unit / 8.0))),
     ("mesh of given triangles", |set| kept(set, Refinement::new().min_angle(0.0))),
     ("mesh of given triangles by angle", |set| kept(set, Refinement::new().min_angle(25.0))),
     ("mesh made coarser", coarse),

@@ -9,9 +9,9 @@ use delone_predicates::{Sign, orient2d};
 
 use crate::error::{ArcProblem, Error};
 
-/// Halvings of the directions until these are divided along their chord: of half a turn a piece is less than a thousandth of a turn then, and
-/// parts of its angle are those of its chord up to one in ten millions.
-const HALVINGS: usize = 10;
+/// Halvings of the directions until these are divided along their chord: half a turn is in pieces of less than three degrees then, and parts of their
+/// angles are those of their chords up to one in ten thousand.
+const HALVINGS: usize = 6;
 /// The distances of both ends from the center differ by at most this factor: what rounding to four digits in a file makes of them. Between the ends
 /// the distance changes evenly.
 const RADII_FACTOR: f64 = 1.001;

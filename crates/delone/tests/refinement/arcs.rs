@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use delone::{Arc2, Constrained2, Fill, Refined2, Refinement, SegmentId, VertexId};
+use delone::{Arc2, ArcProblem, Constrained2, Error, Fill, Refined2, Refinement, SegmentId, VertexId};
 use delone_oracle::exact;
 
 use super::judge::{Points, Segments, area, has_angles};
@@ -161,4 +161,84 @@ fn new_vertices_are_on_the_circles() {
             assert!(refined.report.left.is_empty() || name.starts_with("fillet"), "{name}");
         }
     }
+}
+
+/// Arcs of a quarter, with nothing beside them, need not be divided before; refined again new vertices are on the circles too.
+#[test]
+fn quarters_are_divided_and_meshes_refined_again() {
+    let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    let segments = [[0, 1], [1, 2], [2, 3], [3, 0]];
+    let drawing = Drawing {
+        points: corners.to_vec(),
+        segments: segments.to_vec(),
+        arcs: (0..4).map(|s| (SegmentId::new(s), [0.0, 0.0])).collect(),
+    };
+    let (mut c, mut refined) = drawing.refined(Refinement::new().min_angle(25.0));
+    for area in [0.1, 0.01, 0.001] {
+        let [straight, curved] = judge(&drawing, &c, &refined, 25.0, "quarters");
+        assert!((curved - PI).abs() < 1e-4 && straight < PI, "{straight} {curved}");
+        let again = Refinement::new().min_angle(25.0).max_area(area).arcs(&drawing.arcs);
+        refined = again.fill(Fill::Parts(&refined.domains)).run(&mut c).expect("it ends");
+    }
+    let [straight, _] = judge(&drawing, &c, &refined, 25.0, "quarters");
+    assert!((straight / PI - 1.0).abs() < 1e-3, "{straight}");
+}
+
+/// Where a circle touches a line, where others cross it, and where something is between arc and chord: it ends, and is a triangulation.
+#[test]
+fn arcs_in_the_way_end() {
+    let mut touching = Drawing::default();
+    touching.rectangle([-2.0, -1.0], [4.0, 3.0]);
+    touching.points.push([0.0, -1.0]);
+    touching.circle([0.0, 0.0], 1.0);
+    let mut narrow = Drawing::default();
+    narrow.circle([0.0, 0.0], 1.0);
+    narrow.circle([0.0, 0.0], 1.0 - 1e-3);
+    let mut between = Drawing::default();
+    between.rectangle([-2.0, -2.0], [4.0, 4.0]);
+    // A point between the chord and the arc, and a line across.
+    between.points.push([0.6, 0.6]);
+    between.line([0.55, 0.55], [0.9, 0.9]);
+    for k in 0..2 {
+        let ends = if k == 0 { [[1.0, 0.0], [0.0, 1.0]] } else { [[-1.0, 0.0], [0.0, -1.0]] };
+        between.arcs.push((SegmentId::new(between.segments.len()), [0.0, 0.0]));
+        between.line(ends[0], ends[1]);
+    }
+    for (name, drawing) in [("touching", touching), ("narrow", narrow), ("between", between)] {
+        for how in [Refinement::new(), Refinement::new().edge(0.2), Refinement::new().max_area(0.05)] {
+            let Ok(mut c) = Constrained2::from_parts(&drawing.points, &drawing.segments) else {
+                panic!("{name}: chords cross")
+            };
+            let how = how.fill(Fill::EvenOdd).arcs(&drawing.arcs).max_vertices(50_000);
+            let refined = how.run(&mut c).expect("it ends");
+            c.check().unwrap_or_else(|flaw| panic!("{name}: {flaw}"));
+            let left = refined.report.left.len();
+            assert!(refined.report.triangles > 10 && left < 50, "{name}: {left}");
+            refined.arc_middles(&c, &drawing.arcs).expect("arcs");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_arc_is_named() {
+    let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]];
+    let refused = |segments: &[[usize; 2]], arcs: &[(usize, [f64; 2])]| {
+        let mut c = Constrained2::from_parts(&corners, segments).expect("nothing crosses");
+        let arcs: Vec<_> = arcs.iter().map(|&(s, center)| (SegmentId::new(s), center)).collect();
+        let before = c.vertex_count();
+        let outcome = Refinement::new().max_area(0.1).arcs(&arcs).run(&mut c).map(|_| ());
+        assert!(outcome.is_ok() || c.vertex_count() == before);
+        outcome
+    };
+    let around = [[0, 1], [1, 2], [2, 0], [1, 0]];
+    let flaw = |segment, problem| Err(Error::Arc { segment, problem });
+    assert_eq!(refused(&around, &[(0, [2.0, 0.0])]), flaw(0, ArcProblem::HalfTurn));
+    assert_eq!(refused(&around, &[(1, [f64::NAN, 0.0])]), flaw(1, ArcProblem::NotFinite));
+    assert_eq!(refused(&around, &[(9, [0.0, 0.0])]), flaw(9, ArcProblem::NoSegment));
+    assert_eq!(refused(&around, &[(0, [2.0, 2.0]), (3, [2.0, 3.0])]), flaw(3, ArcProblem::Repeated));
+    assert!(matches!(
+        refused(&around, &[(1, [3.0, 1.0])]),
+        Err(Error::Arc { segment: 1, problem: ArcProblem::Radii(factor) }) if (factor - 1.58).abs() < 0.01
+    ));
+    assert_eq!(refused(&around, &[(0, [2.0, 2.0]), (3, [2.0, 2.0])]), Ok(()));
 }

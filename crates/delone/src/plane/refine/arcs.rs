@@ -10,6 +10,7 @@
 
 use std::collections::BTreeMap;
 
+use super::free::Met;
 use super::mesher::Mesher;
 use super::queue::Fault;
 use super::shape::{Shape, squared};
@@ -73,6 +74,24 @@ impl Mesher<'_> {
         }
         let center = *self.arcs.get(&sorted(self.input_of(ends)))?;
         Some(Arc2::of(ends.map(|v| self.point(v)), center))
+    }
+
+    /// Where the chord of another arc is between a constraint and its arc, notes that this one is split first, once.
+    pub(super) fn split_arc_between(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
+        let ends = self.ends(e);
+        if self.arc(ends).is_none() || !self.waiting.insert(ends) {
+            return false;
+        }
+        let sides = [e, self.layer.mesh.twin(e)].into_iter().filter(|e| !self.layer.mesh.tip(*e).is_ghost());
+        let other =
+            sides.filter(|e| self.is_inside(e.triangle())).find_map(|side| match self.walk(side, q) {
+                Met::Constraint(other) if self.arc(self.ends(other)).is_some() => Some(other),
+                _ => None,
+            });
+        let Some(other) = other.filter(|&other| self.refusal(other).is_none()) else { return false };
+        self.note_constraint(other, Fault::Constraint);
+        self.note_constraint(e, Fault::LargeConstraint);
+        true
     }
 
     /// Splits arcs that are high beside their triangles, until none is.

@@ -95,6 +95,8 @@ pub(super) struct Mesher<'a> {
     pub(super) kept: BTreeSet<[Place; 2]>,
     /// The centers of the arcs that input constraints are chords of.
     pub(super) arcs: Centers<Place>,
+    /// Chords that were noted again once, behind another one.
+    pub(super) waiting: BTreeSet<[Place; 2]>,
 }
 
 /// The result of a refinement.
@@ -143,6 +145,7 @@ impl<'a> Mesher<'a> {
             left: Vec::new(),
             kept: BTreeSet::new(),
             arcs: Centers::new(),
+            waiting: BTreeSet::new(),
         }
     }
 
@@ -157,6 +160,7 @@ impl<'a> Mesher<'a> {
         self.born.clear();
         (self.count, self.for_sizes) = (0, 0);
         self.refused.clear();
+        self.waiting.clear();
     }
 
     /// Mends all that can be mended.

@@ -38,6 +38,9 @@ impl Mesher<'_> {
         let e = self.make_way(e, wanted);
         let first = Some(wanted).filter(|&q| self.is_clear(e, q));
         let Some(q) = first.or_else(|| around(wanted).into_iter().find(|&q| self.is_clear(e, q))) else {
+            if self.split_arc_between(e, wanted) {
+                return;
+            }
             self.refuse(e, Reason::Precision);
             return;
         };

@@ -12,6 +12,7 @@ use super::rings::{Corners, SAME_DISTANCE};
 use super::samples::Samples;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
+use crate::plane::arc::Arc2;
 use crate::sorting;
 
 /// Rounds at most, and at least.
@@ -32,6 +33,8 @@ pub(super) struct Line {
     pub(super) length: f64,
     /// The length that is wanted of edges in the regions beside it.
     pub(super) wanted: f64,
+    /// The arc that it is the chord of.
+    arc: Option<Arc2>,
     /// Where it is divided, as parts of its length.
     parts: Vec<f64>,
     /// The vertices there, as far as there is room for them.
@@ -96,7 +99,8 @@ impl Frontal<'_, '_> {
             let ends = self.mesher.ends(e);
             let length = self.distance(ends[0], ends[1]);
             let beside = [e, mesh.twin(e)].map(|e| self.mesher.rules.length_in(mesh.domain(e.triangle())));
-            Line { ends, length, wanted: beside[0].min(beside[1]), parts: Vec::new(), vertices: Vec::new() }
+            let (wanted, arc) = (beside[0].min(beside[1]), self.mesher.arc(ends));
+            Line { ends, length, wanted, arc, parts: Vec::new(), vertices: Vec::new() }
         };
         let mut lines: Vec<Line> = mesh.fixed_edges().filter(is_line).map(line).collect();
         // Squares of lengths leave the range of numbers sooner than coordinates.
@@ -115,7 +119,7 @@ impl Frontal<'_, '_> {
 
     /// A place on a constraint.
     fn on(&self, line: &Line, part: f64) -> [f64; 2] {
-        if let Some(arc) = self.mesher.arc(line.ends) {
+        if let Some(arc) = line.arc {
             return arc.at(part);
         }
         let [a, b] = line.ends.map(|end| self.point(end));
