@@ -1,7 +1,7 @@
 //! Arcs of circles: the shorter way around a center from one point to another.
 //!
-//! All points are found by square roots and sums, which are the same on every machine: directions are halved, and where they are nearly
-//! parallel they are divided along their chord.
+//! Points are found from the chord: how far they are along it, and how high over it. So of flat arcs, with centers far away, no digits are lost.
+//! All is done by sums, products and square roots, which are the same on every machine.
 //!
 //! Cost: O(1) a point.
 
@@ -9,11 +9,10 @@ use delone_predicates::{Sign, orient2d};
 
 use crate::error::{ArcProblem, Error};
 
-/// Halvings of the directions until these are divided along their chord: half a turn is in pieces of less than three degrees then, and parts of their
-/// angles are those of their chords up to one in ten thousand.
+/// Halvings of an arc until it is divided along its chord: half a turn is in pieces of less than three degrees then, and parts of their angles are
+/// those of their chords up to one in ten thousand.
 const HALVINGS: usize = 6;
-/// The distances of both ends from the center differ by at most this factor: what rounding to four digits in a file makes of them. Between the ends
-/// the distance changes evenly.
+/// The distances of both ends from the center differ by at most this factor: what rounding to four digits in a file makes of them.
 const RADII_FACTOR: f64 = 1.001;
 /// The largest rise of a piece over its chord, as a part of the chord: that of an arc of 11.25 degrees, 32 of which make a circle. Their
 /// chords are within half a percent of the radius.
@@ -36,8 +35,14 @@ pub struct Arc2 {
     center: [f64; 2],
 }
 
-/// A direction with its length.
-type Spoke = ([f64; 2], f64);
+/// A chord: its middle, its direction, the one across it to where the arc is, half of its length, and the distance of the center from it.
+struct Chord {
+    middle: [f64; 2],
+    along: [f64; 2],
+    across: [f64; 2],
+    half: f64,
+    depth: f64,
+}
 
 impl Arc2 {
     /// The shorter arc around a center from the first end to the second.
@@ -54,7 +59,7 @@ impl Arc2 {
         if orient2d(ends[0], ends[1], center) == Sign::Zero {
             return flawed(ArcProblem::HalfTurn);
         }
-        let [(_, r), (_, s)] = arc.spokes();
+        let [r, s] = ends.map(|end| length(from(center, end)));
         let factor = r.max(s) / r.min(s);
         if factor > RADII_FACTOR {
             return flawed(ArcProblem::Radii(factor));
@@ -72,64 +77,58 @@ impl Arc2 {
         self.center
     }
 
-    fn spokes(&self) -> [Spoke; 2] {
-        self.ends.map(|end| {
-            let u = [end[0] - self.center[0], end[1] - self.center[1]];
-            (u, (u[0] * u[0] + u[1] * u[1]).sqrt())
-        })
-    }
-
-    fn at_spoke(&self, spoke: Spoke) -> [f64; 2] {
-        [0, 1].map(|k| self.center[k] + spoke.0[k])
+    fn chord(&self) -> Chord {
+        let [a, b] = self.ends;
+        let whole = length(from(a, b));
+        let along = from(a, b).map(|x| x / whole);
+        let middle = [a[0].midpoint(b[0]), a[1].midpoint(b[1])];
+        let left = [-along[1], along[0]];
+        let deep = from(middle, self.center);
+        let depth = (deep[0] * left[0] + deep[1] * left[1]).abs();
+        let across = if orient2d(a, b, self.center).is_positive() { left.map(|x| -x) } else { left };
+        Chord { middle, along, across, half: 0.5 * whole, depth }
     }
 
     /// The middle of the arc, rounded; the same from both sides.
     pub fn middle(&self) -> [f64; 2] {
-        self.at_spoke(halfway(self.spokes()))
+        self.chord().at(0.0)
     }
 
     /// The point at this part of the angle from the first end, from 0 to 1, rounded.
     pub fn at(&self, part: f64) -> [f64; 2] {
-        if part == 0.0 || part == 1.0 {
-            return self.ends[usize::from(part == 1.0)];
-        }
-        let ([mut from, mut to], mut part) = (self.spokes(), part);
+        let (mut piece, mut part) = (*self, part);
         for _ in 0..HALVINGS {
-            let half = halfway([from, to]);
-            if part < 0.5 {
-                (to, part) = (half, 2.0 * part);
-            } else {
-                (from, part) = (half, 2.0 * part - 1.0);
+            if part == 0.0 || part == 1.0 {
+                return piece.ends[usize::from(part == 1.0)];
             }
-            if part == 0.0 {
-                return self.at_spoke(from);
+            let middle = piece.middle();
+            if part < 0.5 {
+                (piece.ends[1], part) = (middle, 2.0 * part);
+            } else {
+                (piece.ends[0], part) = (middle, 2.0 * part - 1.0);
             }
         }
-        let chord = [0, 1].map(|k| from.0[k] + part * (to.0[k] - from.0[k]));
-        self.at_spoke(of_length(chord, from.1 + part * (to.1 - from.1)))
+        let chord = piece.chord();
+        chord.at((2.0 * part - 1.0) * chord.half)
     }
 
     /// The point at a distance from the first end, or the second, rounded.
     pub(super) fn at_distance(&self, from_second: bool, distance: f64) -> [f64; 2] {
-        let [mut own, mut other] = self.spokes();
-        let mut end = self.ends[0];
-        if from_second {
-            (own, other, end) = (other, own, self.ends[1]);
-        }
-        let (u, r) = own;
+        let [end, other] = if from_second { [self.ends[1], self.ends[0]] } else { self.ends };
+        let outwards = from(self.center, end);
+        let radius = length(outwards);
+        let u = outwards.map(|x| x / radius);
         // Across the direction of the end, towards the other one.
-        let turns_left = u[0] * other.0[1] - u[1] * other.0[0] > 0.0;
+        let turns_left = orient2d(self.center, end, other).is_positive();
         let across = if turns_left { [-u[1], u[0]] } else { [u[1], -u[0]] };
-        let half = 0.5 * (distance / r);
-        let (inwards, along) = (2.0 * half * half, 2.0 * half * (1.0 - half * half).max(0.0).sqrt());
+        let half = 0.5 * (distance / radius);
+        let (inwards, along) = (distance * half, distance * (1.0 - half * half).max(0.0).sqrt());
         [0, 1].map(|k| end[k] + (along * across[k] - inwards * u[k]))
     }
 
     /// The height of the arc over its chord, rounded.
     pub fn sagitta(&self) -> f64 {
-        let (middle, [a, b]) = (self.middle(), self.ends);
-        let apart = [0, 1].map(|k| middle[k] - a[k].midpoint(b[k]));
-        (apart[0] * apart[0] + apart[1] * apart[1]).sqrt()
+        self.chord().height(0.0)
     }
 
     /// Points that divide the arc into equal ones of at most 11.25 degrees, without the ends; they are 2^k - 1.
@@ -140,10 +139,9 @@ impl Arc2 {
     }
 
     fn divide(&self, points: &mut Vec<[f64; 2]>) {
-        let ([a, b], middle) = (self.ends, self.middle());
-        let chord = [b[0] - a[0], b[1] - a[1]];
-        let is_short = self.sagitta() <= PIECE_RISE * (chord[0] * chord[0] + chord[1] * chord[1]).sqrt();
-        if is_short || middle == a || middle == b || !middle.iter().all(|x| x.is_finite()) {
+        let ([a, b], middle, chord) = (self.ends, self.middle(), self.chord());
+        let is_flat = chord.height(0.0) <= PIECE_RISE * (2.0 * chord.half);
+        if is_flat || middle == a || middle == b || !middle.iter().all(|x| x.is_finite()) {
             return;
         }
         Self { ends: [a, middle], ..*self }.divide(points);
@@ -152,13 +150,26 @@ impl Arc2 {
     }
 }
 
-/// The direction in the middle of two.
-fn halfway([(u, r), (v, s)]: [Spoke; 2]) -> Spoke {
-    of_length([u[0] / r + v[0] / s, u[1] / r + v[1] / s], r.midpoint(s))
+impl Chord {
+    /// The height of the arc over a place on the chord, by its distance from the middle.
+    fn height(&self, x: f64) -> f64 {
+        let (half, depth) = (self.half, self.depth);
+        // Of radius squared minus x squared, without the digits that the difference would lose.
+        let rest = (half - x) * (half + x);
+        rest / ((rest + depth * depth).sqrt() + depth)
+    }
+
+    /// The point of the arc over a place on the chord.
+    fn at(&self, x: f64) -> [f64; 2] {
+        let y = self.height(x);
+        [0, 1].map(|k| self.middle[k] + (x * self.along[k] + y * self.across[k]))
+    }
 }
 
-/// A direction, with a length.
-fn of_length(u: [f64; 2], length: f64) -> Spoke {
-    let own = (u[0] * u[0] + u[1] * u[1]).sqrt();
-    (u.map(|x| x * (length / own)), length)
+fn from(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [q[0] - p[0], q[1] - p[1]]
+}
+
+fn length(v: [f64; 2]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1]).sqrt()
 }

@@ -242,3 +242,29 @@ fn what_is_no_arc_is_named() {
     ));
     assert_eq!(refused(&around, &[(0, [2.0, 2.0]), (3, [2.0, 2.0])]), Ok(()));
 }
+
+#[test]
+fn points_of_arcs_are_on_them() {
+    let turns = |degrees: f64| {
+        let t = degrees.to_radians();
+        let ends = [[1.0, 0.0], [t.cos(), t.sin()]];
+        Arc2::new(ends, [0.0, 0.0]).expect("an arc")
+    };
+    for degrees in [0.001, 1.0, 11.0, 45.0, 90.0, 120.0, 179.0] {
+        for (arc, sign) in [(turns(degrees), 1.0), (turns(-degrees), -1.0)] {
+            for part in [0.0, 0.125, 0.3, 0.5, 0.7, 0.99, 1.0] {
+                let [x, y] = arc.at(part);
+                assert!((x.hypot(y) - 1.0).abs() < 4e-16, "{degrees} {part}");
+                let angle = sign * y.atan2(x).to_degrees();
+                assert!((angle - part * degrees).abs() < 1e-5 * degrees, "{degrees} {part}: {angle}");
+            }
+            assert!((arc.sagitta() - (1.0 - (degrees / 2.0).to_radians().cos())).abs() < 1e-15);
+            assert_eq!(arc.middle(), arc.at(0.5));
+            let count = (degrees / 11.2501).ceil().max(1.0) as usize;
+            assert_eq!(arc.inner_points().len() + 1, count.next_power_of_two(), "{degrees}");
+        }
+    }
+    // A rise of a billionth of the chord, far from the origin: the last digit is right.
+    let flat = Arc2::new([[100.0, 100.0], [101.0, 100.0]], [100.5, 100.0 - 125e6]).expect("an arc");
+    assert_eq!(flat.middle(), [100.5, 100.0 + 1e-9]);
+}
