@@ -20,6 +20,8 @@ pub struct Graph {
     pub segments: Vec<[usize; 2]>,
     /// For each segment, whether it bounds an area: rings of polygons and the segments of `.poly` files do, lines do not.
     pub is_border: Vec<bool>,
+    /// The segments that are chords of arcs, by increasing index, with the centers of their circles.
+    pub arcs: Vec<(usize, [f64; 2])>,
     /// A number for each segment, where the file has them.
     pub markers: Option<Vec<i64>>,
     /// A number for each point, where the file has them.
@@ -97,6 +99,7 @@ impl Graph {
         self.cloud.join(other.cloud)?;
         self.segments.extend(other.segments.iter().map(|ends| ends.map(|i| i + points)));
         self.is_border.append(&mut other.is_border);
+        self.arcs.extend(other.arcs.iter().map(|&(segment, center)| (segment + segments, center)));
         join_markers(&mut self.markers, segments, other.markers, more_segments);
         join_markers(&mut self.point_markers, points, other.point_markers, more_points);
         if self.attributes.width == other.attributes.width || points == 0 {

@@ -61,6 +61,8 @@ pub struct Mesh<'a, T: Triangulation> {
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
     pub second_order: bool,
+    /// Middles of edges that are on arcs, by the ends of their edges; all others are halfway between the ends.
+    pub arc_middles: &'a [([VertexId; 2], [f64; 2])],
     /// In the plane, for each triangle by index the index of the one that it makes a quadrilateral with. Not all formats hold that: see
     /// [`Drawable::check_quads`]. Elements are of first order then.
     pub partners: Option<&'a [Option<usize>]>,
@@ -134,6 +136,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             point_markers: None,
             edge_markers: true,
             second_order: false,
+            arc_middles: &[],
             partners: None,
             element: None,
         }

@@ -10,6 +10,8 @@ use crate::Mesh;
 #[derive(Debug)]
 pub(crate) struct Middles {
     edges: Vec<([VertexId; 2], i64)>,
+    /// The places of middles that are on arcs, by the number of their edge.
+    on_arcs: Vec<(usize, [f64; 2])>,
     /// The number of the first middle.
     first: usize,
 }
@@ -21,7 +23,10 @@ impl Middles {
         let edges = mesh.marked_edges().filter(|_| has_cells);
         let mut edges: Vec<_> = edges.map(|(ends, marker)| (ordered(ends), marker)).collect();
         edges.sort_unstable();
-        Self { edges, first: mesh.points.len() }
+        let number = |ends: [VertexId; 2]| edges.binary_search_by_key(&ordered(ends), |edge| edge.0).ok();
+        let on_arcs = mesh.arc_middles.iter();
+        let on_arcs = on_arcs.filter_map(|&(ends, place)| Some((number(ends)?, place))).collect();
+        Self { edges, on_arcs, first: mesh.points.len() }
     }
 
     /// The middles of a triangle: of its corners 1 and 2, 2 and 3, 3 and 1.
@@ -43,7 +48,12 @@ impl Middles {
             middle.as_mut().iter_mut().zip(other.as_ref()).for_each(|(x, y)| *x = x.midpoint(*y));
             middle
         });
-        points.iter().copied().chain(between).collect()
+        let mut all: Vec<P> = points.iter().copied().chain(between).collect();
+        for &(number, place) in &self.on_arcs {
+            let middle = all[self.first + number].as_mut();
+            middle.iter_mut().zip(place).for_each(|(x, own)| *x = own);
+        }
+        all
     }
 
     /// Rows of values of the points, those that are not there 0, and the means of two after them.

@@ -16,7 +16,8 @@ pub struct GraphArgs {
     /// Treatment of segments that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,
-    /// The rule for the inside [default: seeds for .poly, even-odd for polygons, all for lines].
+    /// The rule for the inside [default: seeds for .poly, even-odd for polygons, all for lines]. Lines bound areas
+    /// where there are no polygons.
     #[arg(long, value_name = "RULE")]
     pub(crate) fill: Option<FillName>,
 }

@@ -119,7 +119,9 @@ impl Constrained {
         let triangulation =
             Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
         let seeds = Seeds2::default().holes(graph.holes.clone()).keep_concavities(keep_concavities);
-        let is_border = |s: SegmentId| graph.is_border.get(s.index()).copied().unwrap_or(true);
+        // Without polygons, lines are all that can bound an area.
+        let lines_bound = !graph.is_border.contains(&true);
+        let is_border = |s: SegmentId| lines_bound || graph.is_border.get(s.index()).copied().unwrap_or(true);
         let fill = match fill {
             FillName::All => Fill::All,
             FillName::EvenOdd => Fill::EvenOdd,

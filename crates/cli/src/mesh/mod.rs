@@ -15,7 +15,8 @@ mod tell;
 use std::path::Path;
 
 use delone::{
-    Constrained2, Error, Fill, Location2, Quads2, Refined2, Seeds2, Shapes2, Triangulation, VertexId,
+    Constrained2, Error, Fill, Location2, Quads2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
+    VertexId,
 };
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
@@ -110,7 +111,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("vertices", kept.vertex_count());
     let angles = args.color == Some(ColorName::Angle);
     let options = picture::Options { angles, size: args.picture_size, ..picture::Options::default() };
-    made.write(&kept, &plan, &targets, &options, quiet)?;
+    made.write(&kept, &plan, &targets, &options, &label, quiet)?;
     stats.phase("write");
     tell::summary(report, &stats, quiet);
     if plan.traits.histogram {
@@ -131,6 +132,8 @@ struct Made {
     /// How many polygons of the input are regions.
     polygons: usize,
     naming: Naming,
+    /// Segments that are chords of arcs.
+    arcs: Vec<(SegmentId, [f64; 2])>,
 }
 
 impl Made {
@@ -171,6 +174,8 @@ impl Made {
         if let Some(layers) = &layers {
             wanted = wanted.layers(layers);
         }
+        let arcs: Vec<_> = graph.arcs.iter().map(|&(s, center)| (SegmentId::new(s), center)).collect();
+        wanted = wanted.arcs(&arcs);
         let width = graph.attributes.width;
         let has_values = heights.is_some() || width > 0;
         let before = has_values.then(|| triangulation.clone());
@@ -192,7 +197,7 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons, naming })
+        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons, naming, arcs })
     }
 
     /// Writes all files.
@@ -202,6 +207,7 @@ impl Made {
         plan: &Plan,
         targets: &[Target],
         options: &picture::Options,
+        label: &Path,
         quiet: bool,
     ) -> Result<(), Failure> {
         let (c, graph, domains) = (&self.triangulation, &self.graph, &self.refined.domains);
@@ -242,6 +248,7 @@ impl Made {
         c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
         let partners = plan.traits.quads.then(|| self.partners());
+        let middles = if plan.traits.second_order { self.middles(kept, label)? } else { Vec::new() };
         let mesh = Mesh {
             heights: heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
@@ -254,6 +261,7 @@ impl Made {
             point_markers: points.as_deref(),
             edge_markers: plan.markers != Written::Never,
             second_order: plan.traits.second_order,
+            arc_middles: &middles,
             partners: partners.as_deref(),
             element: plan.element.as_deref(),
             ..Mesh::new(kept, &kept.points)
@@ -277,6 +285,15 @@ impl Made {
             })?;
         }
         Ok(())
+    }
+
+    /// Nodes in the middles of arcs.
+    fn middles(&self, kept: &Kept, label: &Path) -> Result<Vec<([VertexId; 2], [f64; 2])>, Failure> {
+        let found = self.refined.arc_middles(&self.triangulation, &self.arcs);
+        let found = found.map_err(|error| refused(label, &error))?;
+        let named =
+            |([v, w], middle): ([VertexId; 2], [f64; 2])| Some(([kept.name(v)?, kept.name(w)?], middle));
+        Ok(found.into_iter().filter_map(named).collect())
     }
 
     /// For each triangle by index the one that it makes a quadrilateral with.

@@ -131,6 +131,14 @@ impl Arc2 {
         self.chord().height(0.0)
     }
 
+    /// Whether another arc over the same chord is as high on the same side, but for what rounding its center may do.
+    pub(super) fn is_nearly(&self, other: &Self) -> bool {
+        let [a, b] = self.ends;
+        let (heights, is_left) = ([self, other].map(Self::sagitta), orient2d(a, b, self.center));
+        let factor = heights[0].max(heights[1]) / heights[0].min(heights[1]);
+        self.center == other.center || (is_left == orient2d(a, b, other.center) && factor <= RADII_FACTOR)
+    }
+
     /// Points that divide the arc into equal ones of at most 11.25 degrees, without the ends; they are 2^k - 1.
     pub fn inner_points(&self) -> Vec<[f64; 2]> {
         let mut points = Vec::new();

@@ -19,6 +19,8 @@ pub(crate) struct Shapes {
     /// The height of each, if it has one.
     z: Vec<Option<f64>>,
     parts: Vec<Part>,
+    /// The centers of the arcs that segments are chords of, by the first position of these.
+    centers: Vec<(usize, [f64; 2])>,
     polygons: usize,
     lines: usize,
     /// The attributes of features.
@@ -123,6 +125,11 @@ impl Shapes {
         true
     }
 
+    /// Says that a segment is a chord, by the number of its first position from here on.
+    pub(super) fn center(&mut self, segment: usize, center: [f64; 2]) {
+        self.centers.push((self.xy.len() + segment, center));
+    }
+
     /// Makes a line of the positions since `start`.
     pub(super) fn line(&mut self, start: usize) {
         self.lines += 1;
@@ -207,6 +214,7 @@ impl Shapes {
     /// The positions with the segments between them: those of rings are borders.
     pub(crate) fn graph(mut self) -> Result<Graph, Error> {
         let mut graph = Graph::default();
+        let mut centers = std::mem::take(&mut self.centers).into_iter().peekable();
         for part in std::mem::take(&mut self.parts) {
             let Range { start, end } = part.positions;
             let chain = (start..end).zip(start + 1..end).map(|(i, j)| [i, j]);
@@ -224,6 +232,11 @@ impl Shapes {
                 graph.is_border.resize(graph.segments.len(), true);
             }
             graph.is_border.resize(graph.segments.len(), false);
+            while let Some((first, center)) = centers.next_if(|&(first, _)| first < end) {
+                if first >= start && before + (first - start) < graph.segments.len() {
+                    graph.arcs.push((before + (first - start), center));
+                }
+            }
         }
         graph.cloud = self.points();
         Ok(graph)

@@ -10,6 +10,8 @@
 
 use std::collections::BTreeMap;
 
+use delone_predicates::lexicographic;
+
 use super::free::Met;
 use super::mesher::Mesher;
 use super::queue::Fault;
@@ -48,8 +50,13 @@ pub(super) fn chords(
         let chain: Vec<VertexId> = chain.into_iter().filter(is_input).collect();
         for link in chain.windows(2) {
             let ends = [link[0].min(link[1]), link[0].max(link[1])];
-            if chords.insert(ends, center).is_some_and(|other| other != center) {
+            let known = chords.entry(ends).or_insert(center);
+            let [one, other] = [*known, center].map(|center| Arc2::of(ends.map(|v| c.point(v)), center));
+            if !one.is_nearly(&other) {
                 return Err(flawed(ArcProblem::Repeated));
+            }
+            if lexicographic(center, *known).is_lt() {
+                *known = center;
             }
         }
     }

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use super::curves::{Path, cosine_and_sine};
 use super::entity::{Entity, Insert, Item};
 use crate::Error;
 use crate::input::most_inflated;
@@ -33,8 +34,8 @@ impl Block {
     }
 }
 
-/// Takes an item with its layer, at its points; nothing where a block is inserted that is none.
-pub(super) type Draw<'a> = &'a mut dyn FnMut(&str, Option<&Item>, &[[f64; 3]]);
+/// Takes an item with its layer, along its path; nothing where a block is inserted that is none.
+pub(super) type Draw<'a> = &'a mut dyn FnMut(&str, Option<&Item>, &Path);
 
 impl Blocks {
     pub(super) fn add(&mut self, block: Block) {
@@ -68,24 +69,24 @@ impl<'a> Expansion<'a, '_> {
         // What is in a block on layer 0 is on the layer of the block.
         let own = item.layer();
         let layer = if !placed.is_empty() && own == "0" { layer } else { own };
-        let mut points: Vec<[f64; 3]> = match item {
-            Item::Point { at, .. } => vec![*at],
-            Item::Line { points, .. } => points.clone(),
+        let mut path = match item {
+            Item::Point { at, .. } => Path::straight(vec![*at]),
+            Item::Line { path, .. } => path.clone(),
             Item::Insert { insert, .. } => return self.insert(insert, layer, placed),
         };
         if !placed.is_empty() {
-            self.count(size_of_val(points.as_slice()))?;
+            self.count(size_of_val(path.points.as_slice()) + size_of_val(path.centers.as_slice()))?;
         }
         for placement in placed.iter().rev() {
-            points.iter_mut().for_each(|point| *point = placement.of(*point));
+            placement.put(&mut path);
         }
-        (self.draw)(layer, Some(item), &points);
+        (self.draw)(layer, Some(item), &path);
         Ok(())
     }
 
     fn insert(&mut self, insert: &'a Insert, layer: &str, placed: &mut Vec<Placement>) -> Result<(), Error> {
         let Some(block) = self.all.get(&insert.name.to_lowercase()) else {
-            (self.draw)(layer, None, &[]);
+            (self.draw)(layer, None, &Path::default());
             return Ok(());
         };
         if placed.len() == DEEPEST {
@@ -124,15 +125,19 @@ struct Placement {
 
 impl Placement {
     fn new(insert: &Insert, base: [f64; 3], place: [u32; 2]) -> Self {
-        let turn = match insert.angle.rem_euclid(360.0) {
-            0.0 => [1.0, 0.0],
-            90.0 => [0.0, 1.0],
-            180.0 => [-1.0, 0.0],
-            270.0 => [0.0, -1.0],
-            angle => [angle.to_radians().cos(), angle.to_radians().sin()],
-        };
+        let turn = cosine_and_sine(insert.angle);
         let step = [0, 1].map(|k| insert.steps[k] * f64::from(place[k]));
         Self { base, scale: insert.scale, turn, step, at: insert.at }
+    }
+
+    /// Puts a path of the block into its place. Arcs that are stretched are circular no longer.
+    fn put(&self, path: &mut Path) {
+        path.points.iter_mut().for_each(|point| *point = self.of(*point));
+        if self.scale[0].abs() == self.scale[1].abs() {
+            path.centers.iter_mut().for_each(|(_, center)| *center = self.of(*center));
+        } else {
+            path.centers.clear();
+        }
     }
 
     /// Where a point of the block is.

@@ -1,5 +1,6 @@
 //! Entities: what their groups say, and which geometry that is.
 
+use super::curves::Path;
 use crate::Error;
 use crate::error::excerpt;
 
@@ -11,16 +12,15 @@ pub(super) struct Entity {
     pub(super) name: String,
     /// The numbers, with their codes.
     numbers: Vec<(i32, f64)>,
-    /// The vertices of a polyline that are entities of their own, and how many arcs begin at them.
-    vertices: Vec<[f64; 3]>,
-    arcs: usize,
+    /// The vertices of a polyline that are entities of their own, with the bulges of the arcs that begin at them.
+    vertices: Vec<([f64; 3], f64)>,
 }
 
 /// A geometry.
 #[derive(Debug)]
 pub(super) enum Item {
     Point { layer: String, at: [f64; 3], is_high: bool },
-    Line { layer: String, points: Vec<[f64; 3]>, is_closed: bool, is_high: bool },
+    Line { layer: String, path: Path, is_closed: bool, is_high: bool },
     Insert { layer: String, insert: Insert },
 }
 
@@ -62,7 +62,8 @@ impl Item {
 }
 
 /// The kinds that have numbers which are read.
-const KINDS: [&str; 8] = ["POINT", "LINE", "LWPOLYLINE", "POLYLINE", "VERTEX", "3DFACE", "INSERT", "BLOCK"];
+const KINDS: [&str; 10] =
+    ["POINT", "LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "VERTEX", "3DFACE", "INSERT", "BLOCK"];
 
 /// Codes of groups.
 const NAME: i32 = 2;
@@ -71,10 +72,12 @@ const X: i32 = 10;
 const Y: i32 = 20;
 const Z: i32 = 30;
 const ELEVATION: i32 = 38;
+const RADIUS: i32 = 40;
 const SCALE: i32 = 41;
 const BULGE: i32 = 42;
 const STEPS: [i32; 2] = [44, 45];
 const ANGLE: i32 = 50;
+const END_ANGLE: i32 = 51;
 const ON_PAPER: i32 = 67;
 const FLAGS: i32 = 70;
 const COUNTS: [i32; 2] = [70, 71];
@@ -88,14 +91,7 @@ const FRAME: u32 = 16;
 
 impl Entity {
     pub(super) fn new(kind: String) -> Self {
-        Self {
-            kind,
-            layer: String::new(),
-            name: String::new(),
-            numbers: Vec::new(),
-            vertices: Vec::new(),
-            arcs: 0,
-        }
+        Self { kind, layer: String::new(), name: String::new(), numbers: Vec::new(), vertices: Vec::new() }
     }
 
     /// Takes a group.
@@ -118,8 +114,8 @@ impl Entity {
     /// Takes a vertex of a polyline; those of the frame of a curve are none.
     pub(super) fn vertex(&mut self, vertex: &Self) {
         if vertex.flags() & FRAME == 0 {
-            self.vertices.push(vertex.corner(0).unwrap_or_default());
-            self.arcs += vertex.bulges();
+            let bulge = vertex.number(BULGE).unwrap_or_default();
+            self.vertices.push((vertex.corner(0).unwrap_or_default(), bulge));
         }
     }
 
@@ -137,15 +133,6 @@ impl Entity {
         Some([x, y, self.number(Z + k).unwrap_or_default()])
     }
 
-    fn bulges(&self) -> usize {
-        self.numbers.iter().filter(|&&(code, bulge)| code == BULGE && bulge != 0.0).count()
-    }
-
-    /// How many of its sides are arcs.
-    pub(super) fn arcs(&self) -> usize {
-        if self.kind == "LWPOLYLINE" { self.bulges() } else { self.arcs }
-    }
-
     /// The geometry that it is.
     pub(super) fn item(self) -> What {
         if self.number(ON_PAPER).is_some_and(|paper| paper != 0.0) {
@@ -153,8 +140,8 @@ impl Entity {
         }
         // Coordinates of what is flat are those of its plane: seen from above, or from below with x to the left.
         let in_space = self.kind == "POLYLINE" && self.flags() & IN_SPACE != 0;
-        let is_flat =
-            ["LWPOLYLINE", "INSERT"].contains(&self.kind.as_str()) || self.kind == "POLYLINE" && !in_space;
+        let is_flat = ["ARC", "CIRCLE", "LWPOLYLINE", "INSERT"].contains(&self.kind.as_str())
+            || self.kind == "POLYLINE" && !in_space;
         let up = self.number(UP).unwrap_or(1.0);
         if is_flat && up.abs() != 1.0 {
             return What::IsNot(format!("{} in a tilted plane", self.kind));
@@ -168,11 +155,10 @@ impl Entity {
         let turned = |[x, y, z]: [f64; 3]| [sign * x, y, sign * z];
         let has_height = |code: i32| self.number(code).is_some();
         let short = || format!("{} without a position", self.kind);
-        let line = |points: Vec<[f64; 3]>, is_closed, is_high, layer| Item::Line {
-            layer,
-            points: points.into_iter().map(turned).collect(),
-            is_closed,
-            is_high,
+        let line = |mut path: Path, is_closed, is_high, layer| {
+            path.points.iter_mut().for_each(|point| *point = turned(*point));
+            path.centers.iter_mut().for_each(|(_, center)| *center = turned(*center));
+            Item::Line { layer, path, is_closed, is_high }
         };
         match self.kind.as_str() {
             "POINT" => {
@@ -181,33 +167,52 @@ impl Entity {
             }
             "LINE" => {
                 let points = vec![self.corner(0).ok_or_else(short)?, self.corner(1).ok_or_else(short)?];
-                Ok(line(points, false, has_height(Z), self.layer))
+                Ok(line(Path::straight(points), false, has_height(Z), self.layer))
+            }
+            "ARC" | "CIRCLE" => {
+                let center = self.corner(0).ok_or_else(short)?;
+                let radius = self.number(RADIUS).filter(|radius| *radius > 0.0);
+                let radius = radius.ok_or_else(|| format!("{} without a radius", self.kind))?;
+                let is_circle = self.kind == "CIRCLE";
+                let angle = |code: i32| self.number(code).unwrap_or_default();
+                let angles = (!is_circle).then(|| [ANGLE, END_ANGLE].map(angle));
+                if angles.iter().flatten().chain(&[radius]).any(|x| !x.is_finite()) {
+                    return Err(format!("{} of numbers that are not finite", self.kind));
+                }
+                Ok(line(Path::around(center, radius, angles), is_circle, has_height(Z), self.layer))
             }
             "3DFACE" => {
                 let mut points: Vec<[f64; 3]> = (0..4).map_while(|k| self.corner(k)).collect();
                 points.dedup();
-                Ok(line(points, true, true, self.layer))
+                Ok(line(Path::straight(points), true, true, self.layer))
             }
             "LWPOLYLINE" => {
                 let height = self.number(ELEVATION);
-                let mut points: Vec<[f64; 3]> = Vec::new();
+                let mut vertices: Vec<([f64; 3], f64)> = Vec::new();
                 for &(code, number) in &self.numbers {
-                    match (code, points.last_mut()) {
-                        (X, _) => points.push([number, 0.0, height.unwrap_or_default()]),
-                        (Y, Some(point)) => point[1] = number,
+                    match (code, vertices.last_mut()) {
+                        (X, _) => vertices.push(([number, 0.0, height.unwrap_or_default()], 0.0)),
+                        (Y, Some(vertex)) => vertex.0[1] = number,
+                        (BULGE, Some(vertex)) => vertex.1 = number,
                         _ => {}
                     }
                 }
-                Ok(line(points, self.flags() & CLOSED != 0, height.is_some(), self.layer))
+                let is_closed = self.flags() & CLOSED != 0;
+                Ok(line(Path::with_bulges(&vertices, is_closed), is_closed, height.is_some(), self.layer))
             }
             "POLYLINE" if self.flags() & MESHES != 0 => Err("POLYLINE that is a mesh".to_owned()),
             "POLYLINE" => {
-                let mut points = std::mem::take(&mut self.vertices);
+                let mut vertices = std::mem::take(&mut self.vertices);
+                let is_in_space = self.flags() & IN_SPACE != 0;
                 // Of what is flat, the height is that of the polyline.
-                if let Some(height) = self.number(Z).filter(|_| self.flags() & IN_SPACE == 0) {
-                    points.iter_mut().for_each(|point| point[2] = height);
+                if let Some(height) = self.number(Z).filter(|_| !is_in_space) {
+                    vertices.iter_mut().for_each(|vertex| vertex.0[2] = height);
                 }
-                Ok(line(points, self.flags() & CLOSED != 0, true, self.layer))
+                if is_in_space {
+                    vertices.iter_mut().for_each(|vertex| vertex.1 = 0.0);
+                }
+                let is_closed = self.flags() & CLOSED != 0;
+                Ok(line(Path::with_bulges(&vertices, is_closed), is_closed, true, self.layer))
             }
             "INSERT" => {
                 let counts = COUNTS.map(|code| self.number(code).map_or(1, |count| count as u32).max(1));

@@ -1,16 +1,18 @@
 //! Drawings in DXF, as text: points, lines, polylines and the edges of faces, with their layers; blocks are put where they are inserted.
 //!
-//! Arcs of polylines are taken as their chords, and closed polylines are lines that end where they begin: contours are such lines, and
+//! Arcs and circles are chords of at most 11.25 degrees, with their centers for meshes that follow them. Closed polylines and circles are lines that end where they begin: contours are such lines, and
 //! would leave out what is inside of them as borders. Where polygons are asked for, they are polygons. What else a drawing has is counted.
 //!
 //! Source: Autodesk's "DXF Reference", 2012. Read by hand: a drawing is pairs of lines, a code and a value.
 
 mod blocks;
+mod curves;
 mod entity;
 
 use std::collections::BTreeMap;
 
 use self::blocks::{Block, Blocks};
+use self::curves::Path;
 use self::entity::{Entity, Item, What};
 use super::lines::Lines;
 use super::shapes::{Purpose, Shapes};
@@ -52,7 +54,9 @@ struct Drawing {
     polyline: Option<Entity>,
     /// How many entities of each kind were left out, and why.
     left_out: BTreeMap<String, usize>,
+    /// Arcs, and how many of them are not parts of circles: of blocks that are stretched.
     arcs: usize,
+    stretched: usize,
 }
 
 /// How a part of a drawing is read.
@@ -83,6 +87,7 @@ pub(crate) fn read(
         polyline: None,
         left_out: BTreeMap::new(),
         arcs: 0,
+        stretched: 0,
     };
     drawing.shapes.attribute("layer", Value::Null);
     let mut pairs = Pairs { lines: Lines::new(source) };
@@ -125,7 +130,12 @@ pub(crate) fn read(
     drawing.end_polyline()?;
     let mut shapes = drawing.shapes;
     if drawing.arcs > 0 {
-        shapes.losses.push(format!("{} arcs of polylines were taken as their chords", drawing.arcs));
+        shapes
+            .remarks
+            .push(format!("{} arcs and circles are chords of at most 11.25 degrees here", drawing.arcs));
+    }
+    if drawing.stretched > 0 {
+        shapes.losses.push(format!("{} arcs are stretched by blocks, and chords alone", drawing.stretched));
     }
     if !drawing.left_out.is_empty() {
         let kinds: Vec<String> =
@@ -164,7 +174,6 @@ impl Drawing {
 
     /// Puts an entity into the block that is being read, or into the drawing.
     fn put(&mut self, entity: Entity) -> Result<(), Error> {
-        self.arcs += entity.arcs();
         let item = match entity.item() {
             What::Is(item) => item,
             What::IsNot(why) => {
@@ -176,22 +185,27 @@ impl Drawing {
             block.items.push(item);
             return Ok(());
         }
-        let Self { shapes, blocks, left_out, .. } = self;
+        let Self { shapes, blocks, left_out, arcs, stretched, .. } = self;
         let closed_are_polygons = self.closed_are_polygons;
-        blocks.expand(&item, &mut |layer, item, points| match item {
+        blocks.expand(&item, &mut |layer, item, path| match item {
             None => *left_out.entry("INSERT of what is no block".to_owned()).or_default() += 1,
-            Some(item) => draw(shapes, layer, item, points, closed_are_polygons),
+            Some(item) => {
+                *arcs += path.arcs;
+                *stretched += if path.centers.is_empty() { path.arcs } else { 0 };
+                draw(shapes, layer, item, path, closed_are_polygons);
+            }
         })
     }
 }
 
-/// Takes an item of a layer at its points.
-fn draw(shapes: &mut Shapes, layer: &str, item: &Item, points: &[[f64; 3]], closed_are_polygons: bool) {
+/// Takes an item of a layer along its path.
+fn draw(shapes: &mut Shapes, layer: &str, item: &Item, path: &Path, closed_are_polygons: bool) {
     shapes.feature();
     shapes.attribute("layer", Value::Text(layer));
     let start = shapes.len();
-    let ends = item.is_closed().then(|| points.first()).flatten();
-    for point in points.iter().chain(ends) {
+    let ends = item.is_closed().then(|| path.points.first()).flatten();
+    path.centers.iter().for_each(|&(segment, [x, y, _])| shapes.center(segment, [x, y]));
+    for point in path.points.iter().chain(ends) {
         shapes.position(if item.is_high() { point } else { &point[..2] });
     }
     match item {
