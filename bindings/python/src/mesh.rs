@@ -1,16 +1,18 @@
 //! A refined mesh: what is wanted of it, its arrays, and its refinement again.
 
+mod like_triangle;
 mod plan;
 
 use std::sync::Arc;
 
 use delone::{
-    Ask as _, Constrained2, Crossings, Domains2, Quads2, Reason, Refined2, Shapes2, TriangleId,
+    Ask as _, Constrained2, Crossings, Domains2, EdgeId, Quads2, Reason, Refined2, Shapes2, TriangleId,
     Triangulation as _,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::constrained::{SEGMENT, index, pairs, work};
 use crate::errors::python_error;
@@ -19,6 +21,7 @@ use crate::memory::TRIANGULATION;
 use crate::sizes::{Asked, Field};
 use crate::state::table;
 use crate::triangulation::coordinates;
+use like_triangle::{Given, Switches};
 use plan::{Said, Wishes};
 
 /// Coordinates or indices, a row each.
@@ -107,10 +110,8 @@ impl Mesh {
         let (corners, neighbors) = self.of(py, |this| {
             let c = &this.made;
             let of = |t: TriangleId| c.corners(t).map(|v| v.index() as i64);
-            let row = |next: Option<TriangleId>| next.map_or(-1, |t| this.rows[t.index()]);
             let corners: Vec<i64> = this.inside.iter().flat_map(|&t| of(t)).collect();
-            let beside = |&t: &TriangleId| [0, 1, 2].map(|k| row(c.across(t, k)));
-            (corners, this.inside.iter().flat_map(beside).collect::<Vec<i64>>())
+            (corners, this.neighbors().flatten().collect::<Vec<i64>>())
         })?;
         Ok((table(py, 3, corners)?, table(py, 3, neighbors)?))
     }
@@ -142,27 +143,41 @@ impl Mesh {
     /// Constraint edges beside triangles inside: their ends, and the first segment on each or -1.
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Bound<'py, PyArray1<i64>>)> {
         let (ends, origins) = self.of(py, |this| {
-            let c = &this.made;
-            let inside = |t: TriangleId| this.rows.get(t.index()).is_some_and(|&row| row >= 0);
             let (mut ends, mut origins) = (Vec::new(), Vec::new());
-            for e in c.constraint_edges() {
-                if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
-                    continue;
-                }
-                if this.refined.only_keeps(c, e) {
-                    continue;
-                }
-                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < this.given);
-                let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
-                if first.is_some_and(|on| !on.is_forward) {
-                    pair.reverse();
-                }
-                ends.extend(pair);
-                origins.push(first.map_or(-1, |on| on.segment.index() as i64));
+            for side in this.sides() {
+                ends.extend(side.ends.map(|v| v as i64));
+                origins.push(side.origin);
             }
             (ends, origins)
         })?;
         Ok((table(py, 2, ends)?, PyArray1::from_vec(py, origins)))
+    }
+
+    /// The arrays that switches of the package `triangle` want, by its keys: of markers of vertices and segments that were given,
+    /// the segments that those of this mesh were, and attributes of its vertices.
+    #[pyo3(signature = (switches, vertex_markers, segments, segment_markers, origins, attributes))]
+    #[expect(clippy::too_many_arguments, reason = "each is an array")]
+    fn like_triangle<'py>(
+        &self,
+        py: Python<'py>,
+        switches: Switches,
+        vertex_markers: PyReadonlyArray1<'_, i64>,
+        segments: PyReadonlyArray2<'_, i64>,
+        segment_markers: PyReadonlyArray1<'_, i64>,
+        origins: Option<PyReadonlyArray1<'_, i64>>,
+        attributes: Option<PyReadonlyArray2<'_, f64>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let given = Given::new(
+            self.0.made.points().len(),
+            &vertex_markers,
+            &segments,
+            &segment_markers,
+            origins,
+            attributes,
+        )?;
+        let (tables, switches) =
+            self.of(py, move |this| (like_triangle::tables(this, &given, &switches), switches))?;
+        like_triangle::dictionary(py, tables, &switches)
     }
 
     /// Whether each triangle inside is of a boundary layer.
@@ -297,6 +312,58 @@ impl Mesh {
             plan.refine(from, given, &said)
         });
         Ok(done??)
+    }
+}
+
+/// A constraint edge beside triangles inside.
+struct Side {
+    /// In the direction of the first segment on it.
+    ends: [usize; 2],
+    /// This segment, or -1.
+    origin: i64,
+    /// Whether triangles on the left and on the right are inside.
+    is_inside: [bool; 2],
+}
+
+impl Side {
+    /// Whether the mesh is on one side.
+    fn is_border(&self) -> bool {
+        self.is_inside[0] != self.is_inside[1]
+    }
+
+    /// The ends, on the border with the mesh on the right.
+    fn with_mesh_on_right(&self) -> [usize; 2] {
+        let [a, b] = self.ends;
+        if self.is_inside == [true, false] { [b, a] } else { [a, b] }
+    }
+}
+
+impl Content {
+    /// An edge, if it is a constraint beside triangles inside and not there for other triangles' sake.
+    fn side(&self, e: EdgeId) -> Option<Side> {
+        let c = &self.made;
+        let mut is_inside =
+            [e, c.mesh().twin(e)].map(|e| self.rows.get(e.triangle().index()).is_some_and(|&row| row >= 0));
+        if !c.is_constraint(e) || is_inside == [false; 2] || self.refined.only_keeps(c, e) {
+            return None;
+        }
+        let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < self.given);
+        let mut ends = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index());
+        if first.is_some_and(|on| !on.is_forward) {
+            ends.reverse();
+            is_inside.reverse();
+        }
+        Some(Side { ends, origin: first.map_or(-1, |on| on.segment.index() as i64), is_inside })
+    }
+
+    fn sides(&self) -> impl Iterator<Item = Side> + '_ {
+        self.made.constraint_edges().filter_map(|e| self.side(e))
+    }
+
+    /// The rows across from the corners of each triangle inside; -1 where nothing inside is.
+    fn neighbors(&self) -> impl Iterator<Item = [i64; 3]> + '_ {
+        let row = |next: Option<TriangleId>| next.map_or(-1, |t| self.rows[t.index()]);
+        self.inside.iter().map(move |&t| [0, 1, 2].map(|k| row(self.made.across(t, k))))
     }
 }
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ._dtm import Wanted as DtmWanted
 from ._store import Plan
+from ._switches import Switches
 from ._wishes import Wishes
 
 __all__ = [
@@ -244,6 +245,15 @@ class Mesh:
     def angles(self) -> tuple[float, float, list[int], list[int]]: ...
     def shapes(self) -> tuple[float, float, float]: ...
     def quads(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
+    def like_triangle(
+        self,
+        switches: Switches,
+        vertex_markers: NDArray[np.int64],
+        segments: NDArray[np.int64],
+        segment_markers: NDArray[np.int64],
+        origins: NDArray[np.int64] | None,
+        attributes: NDArray[np.float64] | None,
+    ) -> dict[str, NDArray[Any]]: ...
     def layers(self) -> NDArray[np.bool_]: ...
     @property
     def layer_counts(self) -> list[int]: ...

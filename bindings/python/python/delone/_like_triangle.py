@@ -10,17 +10,17 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _delone
 from ._constrained import ConstrainedDelaunay
-from ._mesh import Mesh
 from ._points import as_numbers, as_points, as_segments
-from ._sides import BETWEEN, all_edges, among, keys_of, pairs_of, rows_of, sides_of
+from ._sides import all_edges, keys_of, pairs_of, rows_of, sides_of
 from ._switches import Switches
-from ._wishes import Test, Wishes
+from ._wishes import PLAIN, Test, Wishes
 
 _KEYS = (
     *("vertices", "vertex_attributes", "vertex_markers"),
@@ -28,6 +28,10 @@ _KEYS = (
     *("segments", "segment_markers", "holes", "regions"),
     *("neighbors", "edges", "edge_markers"),
 )
+
+#: The columns that seeds may have; there are as many as in the last of these.
+_SEEDS = {"holes": (2,), "regions": (3, 4)}
+_NO_HOLES, _NO_REGIONS = np.empty((0, 2)), np.empty((0, 4))
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -70,8 +74,8 @@ class Given:
             if switches.areas and "triangle_max_area" in tri:
                 areas = _rows(tri, "triangle_max_area", len(triangles))[:, 0]
                 areas = np.where(areas > 0, areas, np.inf)
-        seeds = {"holes": _seeds(tri, "holes", (2,)), "regions": _seeds(tri, "regions", (3, 4))} if switches.poly else {}
-        holes = np.empty((0, 2)) if switches.no_holes else seeds.get("holes", np.empty((0, 2)))
+        seeds = {key: _seeds(tri[key], key) for key in _SEEDS if key in tri} if switches.poly else {}
+        holes = _NO_HOLES if switches.no_holes else seeds.get("holes", _NO_HOLES)
         return cls(
             vertices,
             _rows(tri, "vertex_attributes", n),
@@ -79,7 +83,7 @@ class Given:
             segments,
             _markers(markers, "segment_markers", m),
             holes,
-            seeds.get("regions", np.empty((0, 4))),
+            seeds.get("regions", _NO_REGIONS),
             seeds,
             triangles,
             _rows(tri, "triangle_attributes", len(triangles)) if switches.refine else np.empty((0, 0)),
@@ -109,8 +113,8 @@ def _markers(values: ArrayLike | None, key: str, count: int) -> Ints:
     return array.astype(np.int64).ravel()
 
 
-def _seeds(tri: Mapping[str, ArrayLike], key: str, columns: tuple[int, ...]) -> Floats:
-    array = as_numbers(tri.get(key, np.empty((0, columns[0]))), key)
+def _seeds(values: ArrayLike, key: str) -> Floats:
+    array, columns = as_numbers(values, key), _SEEDS[key]
     array = array.reshape(0, columns[0]) if array.shape == (0,) else array
     if array.ndim != 2 or array.shape[1] not in columns:
         raise ValueError(f"{key} must have {' or '.join(map(str, columns))} columns; the shape is {array.shape}")
@@ -133,22 +137,34 @@ def _triangles(tri: Mapping[str, ArrayLike], count: int) -> Ints:
     return corners
 
 
-def refined(given: Given, switches: Switches, refine_if: Test | None) -> tuple[Mesh, Ints, Old]:
-    """The mesh; for each of its segments the segment that was given, or -1; and what was there before."""
+class Made(NamedTuple):
+    """The mesh of what was given."""
+
+    core: _delone.Mesh
+    #: For each of its segments that which was given, or -1 or `BETWEEN`; None if they are the same.
+    origins: Ints | None
+    #: What was there before.
+    old: Old
+    #: The attributes of its regions.
+    of_regions: Floats
+
+
+def refined(given: Given, switches: Switches, refine_if: Test | None) -> Made:
+    """The mesh that switches want."""
     if switches.refine:
         return _refined_again(given, switches, refine_if)
     old = Old(given)
-    # Of two in one part the last one counts.
-    holes, regions = old.inside(given.holes), old.inside(given.regions)[::-1]
-    areas = regions[:, 3] if switches.areas else np.zeros(len(regions))
     wishes = _wishes(switches, "seeds" if switches.poly else "all", refine_if)
-    wishes["holes"] = np.ascontiguousarray(holes)
-    wishes["regions"] = np.column_stack([regions[:, :2], np.where(areas > 0, areas, np.inf)])
-    made = Mesh._make((given.vertices, given.segments, True), wishes, np.array(regions[:, 2]))
-    return made, made.segment_origin, old
+    wishes["holes"] = np.ascontiguousarray(old.inside(given.holes))
+    # Of two in one part the last one counts.
+    regions = old.inside(given.regions)[::-1]
+    if len(regions):
+        areas = regions[:, 3] if switches.areas else np.zeros(len(regions))
+        wishes["regions"] = np.column_stack([regions[:, :2], np.where(areas > 0, areas, np.inf)])
+    return Made(_delone.Mesh(given.vertices, given.segments, True, wishes), None, old, regions[:, 2])
 
 
-def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> tuple[Mesh, Ints, Old]:
+def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> Made:
     """The triangles that were given stay until a vertex comes near; where they overlap they are made anew, with a warning."""
     old = Old(given)
     is_kept = _once_with_area(given)
@@ -159,15 +175,14 @@ def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> 
     if given.triangle_areas is not None:
         wishes["of"] = old.triangulation._core
         wishes["max_areas"] = np.append(given.triangle_areas, np.inf)[old.rows]
-    origin = (given.vertices, segments, True)
     try:
-        made = Mesh._make(origin, {**wishes, "triangles": triangles}, np.empty(0))
+        core = _delone.Mesh(given.vertices, segments, True, {**wishes, "triangles": triangles})
     except ValueError as error:
         if not str(error).startswith("triangle "):
             raise
         warnings.warn(f"{error}: all triangles are made anew", stacklevel=4)
-        made = Mesh._make(origin, wishes, np.empty(0))
-    return made, np.append(origins, -1)[made.segment_origin], old
+        core = _delone.Mesh(given.vertices, segments, True, wishes)
+    return Made(core, origins, old, np.empty(0))
 
 
 def _once_with_area(given: Given) -> NDArray[np.bool_]:
@@ -181,25 +196,14 @@ def _once_with_area(given: Given) -> NDArray[np.bool_]:
 
 def _wishes(switches: Switches, fill: str, refine_if: Test | None) -> Wishes:
     return {
+        **PLAIN,
         "fill": fill,
-        "holes": np.empty((0, 2)),
-        "regions": np.empty((0, 3)),
         "keep_concavities": switches.convex and fill == "seeds",
         "min_angle": switches.min_angle,
         "max_area": switches.max_area,
-        "max_edge": None,
-        "edge": None,
-        "growth": 1.2,
         "max_vertices": switches.max_vertices,
         "keep": ("nothing", "border", "constraints")[min(switches.keep, 2)],
         "conforming": switches.conforming,
-        "smooth": 0,
-        "size": None,
-        "max_areas": None,
-        "layers": None,
-        "of": None,
-        "triangles": None,
-        "coarsen": None,
         "refine_if": refine_if,
     }
 
@@ -291,128 +295,28 @@ class Old:
         return result
 
 
-@dataclass
-class Result:
-    """The mesh, as a dictionary."""
-
-    given: Given
-    switches: Switches
-    mesh: Mesh
-    origin: Ints
-    old: Old
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """What switches want of it; nothing that is empty."""
-        s, corners = self.switches, self.mesh.triangles
-        points, attributes = self.mesh.points, self.old.attributes(self.mesh.points)
-        is_wanted = s.edges or s.second_order
-        keys, firsts, sides = np.unique(
-            keys_of(all_edges(corners if is_wanted else corners[:0])), return_index=True, return_inverse=True
-        )
-        # Counter-clockwise in the first of their triangles.
-        edges = corners[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)[firsts]
-        at_segments = self._segment_markers()
-        markers = self._vertex_markers(at_segments)
-        # For each edge the marker of the segment that it is on. All borders are segments.
-        at_edges = np.zeros(len(edges), np.int64)
-        if is_wanted:
-            at_edges[np.searchsorted(keys, keys_of(np.sort(self.mesh.segments, axis=1)))] = at_segments
-        shown = self.origin != BETWEEN
-        segments, at_segments, edges_of = self._segments()[shown], at_segments[shown], edges
-        if s.jettison:
-            used = np.zeros(len(points), bool)
-            used[corners] = True
-            name = np.cumsum(used) - 1
-            points, attributes, markers = points[used], attributes[used], markers[used]
-            corners, segments, edges_of = name[corners], name[segments], name[edges]
-        if s.second_order:
-            # The middle across from each corner, after all vertices.
-            corners = np.concatenate([corners, len(points) + sides.reshape(-1, 3)], axis=1)
-            ends = edges_of[:, 0], edges_of[:, 1]
-            points = np.concatenate([points, (points[ends[0]] / 2 + points[ends[1]] / 2)])
-            attributes = np.concatenate([attributes, attributes[ends[0]] / 2 + attributes[ends[1]] / 2])
-            markers = np.concatenate([markers, at_edges])
-        found: dict[str, NDArray[Any]] = {}
-        if not s.no_vertices:
-            found |= {"vertices": points, "vertex_attributes": attributes, "vertex_markers": markers}
-        if not s.no_triangles:
-            found |= {"triangles": corners, "triangle_attributes": self._triangle_attributes()}
-        if s.neighbors:
-            found["neighbors"] = self.mesh.neighbors
-        if (s.poly or s.convex) and not s.no_segments:
-            found |= {"segments": segments, "segment_markers": at_segments}
-            found |= self.given.seeds
-        if s.edges:
-            found |= {"edges": edges_of, "edge_markers": at_edges}
-        return {key: _typed(array) for key, array in found.items() if array.size and not (s.no_markers and "marker" in key)}
-
-    @cached_property
-    def _border(self) -> Ints:
-        """The edges with the mesh on one side: it is on their left."""
-        corners, neighbors = self.mesh.triangles, self.mesh.neighbors
-        return np.asarray(corners[:, [[1, 2], [2, 0], [0, 1]]][neighbors < 0])
-
-    def _segments(self) -> Ints:
-        """The segments of the border with the mesh on their right, others as they were given."""
-        segments = self.mesh.segments
-        return np.where(among(segments, self._border)[:, None], segments[:, ::-1], segments)
-
-    def _segment_markers(self) -> Ints:
-        """Those that were given; of others 1 on the border."""
-        markers = np.append(self._given_markers, [0, 0])[self.origin]
-        is_border = among(np.sort(self.mesh.segments, axis=1), np.sort(self._border, axis=1))
-        return np.where((markers == 0) & is_border, 1, markers)
-
-    @cached_property
-    def _given_markers(self) -> Ints:
-        """For each segment that was given the first marker other than 0 of all that have its ends."""
-        markers = self.given.segment_markers
-        _, sames = np.unique(keys_of(np.sort(self.given.segments, axis=1)), return_inverse=True)
-        first = np.full(len(markers), len(markers))
-        marked = np.flatnonzero(markers)
-        np.minimum.at(first, sames[marked], marked)
-        return np.asarray(np.append(markers, 0)[first[sames]])
-
-    def _vertex_markers(self, at_segments: Ints) -> Ints:
-        """Those that were given; of others that of the first segment there that has one."""
-        markers = np.zeros(len(self.mesh.points), np.int64)
-        markers[: len(self.given.vertices)] = self.given.vertex_markers
-        # Segments that were given come first; the last one that is written stays.
-        is_given = np.append(self._given_markers, [0, 0])[self.origin] != 0
-        order = np.lexsort([self.origin, ~is_given])[::-1]
-        order = order[at_segments[order] != 0]
-        first = np.zeros_like(markers)
-        rank = np.full(len(markers), -1)
-        for end in (0, 1):
-            np.maximum.at(rank, self.mesh.segments[order, end], np.arange(len(order)))
-        marked = rank >= 0
-        first[marked] = at_segments[order[rank[marked]]]
-        markers = np.where(markers == 0, first, markers)
-        # In holes the mesh has no segments: the first that was given and has one. Of equal indices the last one stays.
-        order = np.flatnonzero(self._given_markers)[::-1]
-        ends, values = self.given.segments[order].ravel(), np.repeat(self._given_markers[order], 2)
-        is_bare = markers[ends] == 0
-        markers[ends[is_bare]] = values[is_bare]
-        return markers
-
-    def _triangle_attributes(self) -> Floats:
-        """Those of regions, or of the triangles that were there at the centroids."""
-        if self.switches.refine:
-            known = self.given.triangle_attributes
-            if not known.size:
-                return np.empty((0, 0))
-            centroids = self.mesh.points[self.mesh.triangles].mean(axis=1)
-            # Rounded, one may be outside of all.
-            return np.concatenate([known, np.zeros((1, known.shape[1]))])[self.old.rows_at(centroids)]
-        if not self.switches.attributes or not len(self.given.regions):
-            return np.empty((0, 0))
-        return np.nan_to_num(self.mesh.attributes, nan=0.0)[:, None]
+def arrays_of(given: Given, switches: Switches, made: Made) -> dict[str, NDArray[Any]]:
+    """What switches want of the mesh; nothing that is empty."""
+    attributes = np.ascontiguousarray(made.old.attributes(made.core.points())) if given.vertex_attributes.size else None
+    found: dict[str, NDArray[Any]] = made.core.like_triangle(
+        switches, given.vertex_markers, given.segments, given.segment_markers, made.origins, attributes
+    )
+    more = {} if switches.no_triangles else {"triangle_attributes": _triangle_attributes(given, switches, made)}
+    if switches.poly and not switches.no_segments:
+        more |= given.seeds
+    return found | {key: array for key, array in more.items() if array.size}
 
 
-def _typed(array: NDArray[Any]) -> NDArray[Any]:
-    """As Triangle has it: markers in a column, 32 bits."""
-    array = array[:, None] if array.ndim == 1 else array
-    return np.ascontiguousarray(array, np.int32 if array.dtype.kind in "iu" else np.float64)
+def _triangle_attributes(given: Given, switches: Switches, made: Made) -> Floats:
+    """Those of regions, or of the triangles that were there at the centroids."""
+    if switches.refine and given.triangle_attributes.size:
+        known = given.triangle_attributes
+        centroids = made.core.points()[made.core.arrays()[0]].mean(axis=1)
+        # Rounded, one may be outside of all.
+        return np.concatenate([known, np.zeros((1, known.shape[1]))])[made.old.rows_at(centroids)]
+    if switches.refine or not switches.attributes or not len(given.regions):
+        return np.empty((0, 0))
+    return np.asarray(np.nan_to_num(np.append(made.of_regions, 0.0)[made.core.regions(), None]))
 
 
 def _along(points: Floats, ends: Floats, values: Floats) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._delaunay import Delaunay
-from ._like_triangle import Given, Result, refined
+from ._like_triangle import Given, arrays_of, refined
 from ._points import as_points
 from ._switches import parse
 from ._wishes import Test
@@ -67,13 +67,14 @@ def triangulate(tri: Mapping[str, ArrayLike], opts: str = "", *, refine: Test | 
     if switches.asks != (refine is not None):
         raise ValueError("the switch u and the function refine go together")
     given = Given.of(tri, switches)
-    result = Result(given, switches, *refined(given, switches, refine))
-    left = sum(reason in ("budget", "cascade") for reason in result.mesh.report.reasons)
-    if left and switches.min_angle > 34 and switches.max_vertices is None:
+    made = refined(given, switches, refine)
+    if switches.min_angle > 34 and switches.max_vertices is None:
         # Triangle would not end.
-        words = f"{left} triangles have an angle of less than {switches.min_angle:g} degrees; up to 34 are reached"
-        warnings.warn(words, stacklevel=2)
-    return result.arrays()
+        left = sum(reason in ("budget", "cascade") for _, reason in made.core.left)
+        if left:
+            words = f"{left} triangles have an angle of less than {switches.min_angle:g} degrees; up to 34 are reached"
+            warnings.warn(words, stacklevel=2)
+    return arrays_of(given, switches, made)
 
 
 def delaunay(pts: ArrayLike) -> NDArray[np.int32]:
