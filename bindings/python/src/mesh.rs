@@ -1,5 +1,6 @@
 //! A refined mesh: what is wanted of it, its arrays, and its refinement again.
 
+pub mod arcs;
 mod like_triangle;
 mod plan;
 
@@ -21,6 +22,7 @@ use crate::memory::TRIANGULATION;
 use crate::sizes::{Asked, Field};
 use crate::state::table;
 use crate::triangulation::coordinates;
+use arcs::{Arcs, arcs_of};
 use like_triangle::{Given, Switches};
 use plan::{Said, Wishes};
 
@@ -43,6 +45,7 @@ struct Content {
     inside: Vec<TriangleId>,
     /// Segments that were given; the border of a hull gets ids beyond.
     given: usize,
+    arcs: Arcs,
 }
 
 #[pymethods]
@@ -74,7 +77,8 @@ impl Mesh {
             }
             None => None,
         };
-        Self::refined(py, (built, None), given, areas, wishes)
+        let arcs = arcs_of(wishes.arcs.as_ref())?;
+        Self::refined(py, (built, None), (given, arcs), areas, wishes)
     }
 
     /// Refines what is inside again; a new one.
@@ -82,7 +86,7 @@ impl Mesh {
         let this = Arc::clone(&self.0);
         let areas = wishes.areas(py, move || (this.made.clone(), this.inside.clone()))?;
         let made = self.of(py, |this| (this.made.clone(), Some(this.refined.domains.clone())))?;
-        Self::refined(py, made, self.0.given, areas, wishes)
+        Self::refined(py, made, (self.0.given, self.0.arcs.clone()), areas, wishes)
     }
 
     /// Takes vertices away where all triangles around are marked; a new one.
@@ -95,7 +99,7 @@ impl Mesh {
             };
             let mut made = this.made.clone();
             let refined = this.refined.coarsen(&mut made, &is_marked, min_angle)?;
-            Ok(Self::content(made, refined, this.given))
+            Ok(Self::content(made, refined, (this.given, this.arcs.clone())))
         })?;
         made.map_err(python_error)
     }
@@ -227,6 +231,14 @@ impl Mesh {
         Ok((table(py, 4, corners)?, table(py, 2, pairs)?, PyArray1::from_vec(py, left)))
     }
 
+    /// The middles of arcs as nodes of elements of second order: the ends of edges, and places.
+    fn arc_middles<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Table<'py, f64>)> {
+        let middles = self.of(py, |this| this.refined.arc_middles(&this.made, &this.arcs))?;
+        let middles = middles.map_err(python_error)?;
+        let ends = middles.iter().flat_map(|middle| middle.0).map(|v| v.index() as i64).collect();
+        Ok((table(py, 2, ends)?, table(py, 2, middles.into_iter().flat_map(|middle| middle.1).collect())?))
+    }
+
     /// The rows of triangles that are not as they were to be, and why.
     #[getter]
     fn left(&self) -> Vec<(i64, &'static str)> {
@@ -253,18 +265,18 @@ impl Mesh {
     }
 
     /// With the rows of what is inside.
-    fn content(made: Constrained2, refined: Refined2, given: usize) -> Self {
+    fn content(made: Constrained2, refined: Refined2, (given, arcs): (usize, Arcs)) -> Self {
         let inside: Vec<TriangleId> = made.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
         let mut rows = vec![-1; made.slot_count()];
         inside.iter().zip(0..).for_each(|(t, row)| rows[t.index()] = row);
-        Self(Arc::new(Content { made, refined, rows, inside, given }))
+        Self(Arc::new(Content { made, refined, rows, inside, given, arcs }))
     }
 
     /// Refines what was built, under Python's lock only where Python is asked. What is inside is known, or wished.
     fn refined(
         py: Python<'_>,
         from: (Constrained2, Option<Domains2>),
-        given: usize,
+        (given, arcs): (usize, Arcs),
         areas: Option<Field>,
         wishes: Wishes<'_>,
     ) -> PyResult<Self> {
@@ -296,7 +308,7 @@ impl Mesh {
                 areas: &areas,
                 stop: &|| asked.has_failed(),
             };
-            let done = plan.refine(from, given, &said);
+            let done = plan.refine(from, (given, arcs), &said);
             asked.end()?;
             return Ok(done?);
         }
@@ -309,7 +321,7 @@ impl Mesh {
                 areas: &areas,
                 stop: &|| !wanted.is(),
             };
-            plan.refine(from, given, &said)
+            plan.refine(from, (given, arcs), &said)
         });
         Ok(done??)
     }

@@ -27,6 +27,7 @@ import os
 
 from . import _delone, tiles, triangle
 from ._alpha import AlphaComplex
+from ._arcs import SecondOrder
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
 from ._dtm import dtm
@@ -84,6 +85,7 @@ __all__ = [
     "QhullError",
     "RaggedTriangles",
     "RegularTriangulation",
+    "SecondOrder",
     "Simplified",
     "Voronoi",
     "beta_skeleton",

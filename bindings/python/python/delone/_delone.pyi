@@ -32,6 +32,7 @@ __all__ = [
     "contour_bands",
     "contour_lines",
     "convex_hull",
+    "divide_arcs",
     "corners_of",
     "dtm",
     "facet_equations",
@@ -244,6 +245,7 @@ class Mesh:
     @property
     def angles(self) -> tuple[float, float, list[int], list[int]]: ...
     def shapes(self) -> tuple[float, float, float]: ...
+    def arc_middles(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]: ...
     def quads(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
     def like_triangle(
         self,
@@ -261,6 +263,9 @@ class Mesh:
     def left(self) -> list[tuple[int, str]]: ...
     def check(self) -> None: ...
 
+def divide_arcs(
+    points: NDArray[np.float64], segments: NDArray[np.int64], centers: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
 def triangulate_polygons(
     corners: NDArray[np.float64],
     rings: NDArray[np.int64],

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._arcs import chords_of, renamed
+from ._errors import CrossingError
 from ._layers import Layers, layers_of
 from ._mesh import Mesh
 from ._points import as_choice, as_flag, as_numbers
@@ -16,6 +18,7 @@ def mesh(
     points: ArrayLike,
     segments: ArrayLike | None = None,
     *,
+    centers: ArrayLike | None = None,
     triangles: ArrayLike | None = None,
     attributes: ArrayLike | None = None,
     holes: ArrayLike | None = None,
@@ -49,6 +52,9 @@ def mesh(
         have them: their corners are the points, their sides the segments, and the mesh is inside.
     segments : array_like of integers, shape (m, 2), optional
         The ends of segments, by indices of points. They may pass through points, overlap and repeat each other.
+    centers : array_like of floats, shape (m, 2), optional
+        For each segment that is the chord of an arc the center of its circle, for others NaN. The arc is the shorter way around
+        the center. New points are on it, some of them at most 11.25 degrees apart, and so are nodes of `Mesh.second_order`.
     triangles : array_like of integers, shape (t, 3), optional
         A mesh that there is, by indices of points. Its triangles stay, Delaunay or not, until a new vertex comes near, but where
         `edge` is given. The inside is what they cover, and their border is a segment each. `parents` tells in which of them each
@@ -122,6 +128,13 @@ def mesh(
     >>> made.triangles.shape[1], made.points[:7].tolist() == points
     (3, True)
 
+    A disk, from four arcs.
+
+    >>> around = [[1, 0], [0, 1], [-1, 0], [0, -1]]
+    >>> disk = delone.mesh(around, [[0, 1], [1, 2], [2, 3], [3, 0]], centers=[[0, 0]] * 4, edge=0.2)
+    >>> round(disk.area, 1), disk.second_order.triangles.shape[1]
+    (3.1, 6)
+
     A mesh from elsewhere, finer in one material.
 
     >>> corners = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]]
@@ -144,6 +157,8 @@ def mesh(
         corners = triangles_of(triangles, len(given))
         known = None if attributes is None else _attributes(attributes, len(corners))
         first = Mesh._of_triangles(given, ends, split, corners, known)
+        if centers is not None:
+            raise ValueError("centers are for points and segments: sides of triangles that are given are straight")
         if layers is not None:
             raise ValueError("layers are for points and segments: triangles that are given stay")
         again: Wishes = {**PLAIN, **wanted}
@@ -159,7 +174,17 @@ def mesh(
     wishes["fill"], wishes["holes"], wishes["regions"] = filled, seeds_of(holes), seeds
     wishes["keep_concavities"] = concave
     wishes["layers"] = None if layers is None else layers_of(layers, len(ends))
-    return Mesh._make((given, ends, split), wishes, of_regions)
+    if centers is None:
+        return Mesh._make((given, ends, split), wishes, of_regions)
+    chords = chords_of(given, ends, centers)
+    wishes["arcs"] = chords.rows, chords.centers
+    if wishes["layers"] is not None and wishes["layers"][4] is not None:
+        along = np.flatnonzero(np.isin(chords.origins, wishes["layers"][4])).tolist()
+        wishes["layers"] = (*wishes["layers"][:4], along)
+    try:
+        return Mesh._make((chords.points, chords.segments, split, chords.origins), wishes, of_regions)
+    except CrossingError as error:
+        raise renamed(error, chords.origins) from None
 
 
 def _attributes(values: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -47,6 +47,8 @@ class Wishes(Wanted):
     #: The first height, the number of rows, growth, thickness, and segments.
     layers: tuple[float, int, float, float | None, list[int] | None] | None
     of: _delone.Constrained | None
+    #: Rows of segments that are chords of arcs, and the centers of these.
+    arcs: tuple[NDArray[np.int64], NDArray[np.float64]] | None
     #: Triangles that stay until a vertex comes near.
     triangles: NDArray[np.int64] | None
     #: Triangles whose vertices go; what is wanted besides is then `min_angle`.
@@ -203,6 +205,7 @@ PLAIN: Wishes = {
     "refine_if": None,
     "max_areas": None,
     "of": None,
+    "arcs": None,
     "triangles": None,
     "coarsen": None,
     "layers": None,

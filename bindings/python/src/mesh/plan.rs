@@ -9,6 +9,7 @@ use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use super::Mesh;
+use super::arcs::{ArcWish, Arcs};
 use crate::constrained::{Constrained, index};
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
@@ -45,6 +46,8 @@ pub struct Wishes<'py> {
     pub(super) of: Option<Bound<'py, Constrained>>,
     /// Corners of triangles that stay until a vertex comes near.
     triangles: Option<PyReadonlyArray2<'py, i64>>,
+    /// Segments that are chords of arcs, and the centers of these.
+    pub(super) arcs: Option<ArcWish<'py>>,
     /// A function of corners and area.
     refine_if: Option<Bound<'py, PyAny>>,
 }
@@ -174,7 +177,7 @@ impl Plan {
     pub(super) fn refine(
         &self,
         (mut made, known): (Constrained2, Option<Domains2>),
-        given: usize,
+        (given, arcs): (usize, Arcs),
         said: &Said,
     ) -> Result<Mesh, Failed> {
         let Said { length, refine_if, areas, stop } = *said;
@@ -198,6 +201,7 @@ impl Plan {
             .fill(fill)
             .smooth(self.smooth)
             .triangles(&triangles)
+            .arcs(&arcs)
             .stop_if(stop);
         if let Some(test) = refine_if {
             wanted = wanted.refine_if(test);
@@ -224,7 +228,7 @@ impl Plan {
             wanted = wanted.layers(layers);
         }
         let refined = wanted.run(&mut made)?;
-        Ok(Mesh::content(made, refined, given))
+        Ok(Mesh::content(made, refined, (given, arcs)))
     }
 
     /// Whether there is memory for as many triangles as bounds for all places ask for at least.
