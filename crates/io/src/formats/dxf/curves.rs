@@ -32,8 +32,9 @@ impl Path {
             path.points.push(from);
             let next = vertices.get(i + 1).or(vertices.first().filter(|_| is_closed));
             if let Some(&(to, _)) = next.filter(|_| bulge != 0.0 && bulge.is_finite()) {
-                path.arcs += 1;
+                let before = path.centers.len();
                 path.bulge(from, to, bulge);
+                path.arcs += usize::from(path.centers.len() > before);
             }
         }
         path

@@ -36,11 +36,11 @@ fn layers(graph: &Graph) -> Vec<String> {
 #[test]
 fn entities_of_all_kinds() {
     let entities = "POINT 8=a 10=1 20=2 30=3 LINE 8=b 10=0 20=0 30=1 11=5 21=5 31=2 \
-        LWPOLYLINE 8=c 90=3 70=1 38=7 10=0 20=0 10=4 20=0 42=0.5 10=0 20=4 \
+        LWPOLYLINE 8=c 90=3 70=1 38=7 10=0 20=0 10=4 20=0 42=0 10=0 20=4 \
         POLYLINE 8=d 66=1 70=8 10=0 20=0 30=0 VERTEX 8=d 10=1 20=1 30=9 VERTEX 8=d 10=2 20=1 30=8 SEQEND 8=d \
-        POLYLINE 8=e 70=0 30=6 VERTEX 10=1 20=1 30=0 42=1 VERTEX 10=2 20=2 30=0 VERTEX 70=16 10=9 20=9 SEQEND \
+        POLYLINE 8=e 70=0 30=6 VERTEX 10=1 20=1 30=0 VERTEX 10=2 20=2 30=0 VERTEX 70=16 10=9 20=9 SEQEND \
         3DFACE 8=f 10=0 20=0 30=0 11=1 21=0 31=1 12=0 22=1 32=2 13=0 23=1 33=2 \
-        CIRCLE 8=g 10=0 20=0 40=1 CIRCLE 10=no TEXT 1=x LINE 67=1 10=0 20=0 11=1 21=1 \
+        SPLINE 8=g 10=0 20=0 40=1 SPLINE 10=no TEXT 1=x LINE 67=1 10=0 20=0 11=1 21=1 \
         LWPOLYLINE 10=1 20=2 210=0 220=0 230=-1 10=2 20=2 LWPOLYLINE 10=1 20=2 230=0.5 POLYLINE 70=64 VERTEX 10=1 20=1 SEQEND";
     let graph = read(drawing("", entities)).expect("a drawing");
     let z = |i: usize| graph.cloud.z.as_ref().map(|z| z[i]);
@@ -53,9 +53,8 @@ fn entities_of_all_kinds() {
     assert_eq!(layers(&graph)[..4], ["\"a\"", "\"b\"", "\"b\"", "\"c\""]);
     assert_eq!((graph.segments.len(), graph.rings.len()), (1 + 3 + 1 + 1 + 3 + 1, 0));
     let losses = graph.cloud.losses.join("; ");
-    assert!(losses.contains("2 arcs of polylines were taken as their chords"), "{losses}");
-    let left = "1 LINE on paper, 1 LWPOLYLINE in a tilted plane, 1 POLYLINE that is a mesh, 1 TEXT";
-    assert!(losses.contains("2 CIRCLE") && losses.contains(left), "{losses}");
+    let left = "1 LINE on paper, 1 LWPOLYLINE in a tilted plane, 1 POLYLINE that is a mesh, 2 SPLINE, 1 TEXT";
+    assert!(losses.contains(left), "{losses}");
     let high = "POINT 10=1 20=2 30=3 POLYLINE 70=0 30=6 VERTEX 10=1 20=1 VERTEX 10=2 20=2 SEQEND";
     assert_eq!(read(drawing("", high)).expect("heights").cloud.z, Some(vec![3.0, 6.0, 6.0]));
     let closed = drawing("", "LWPOLYLINE 70=1 10=0 20=0 10=4 20=0 10=0 20=4 LINE 10=0 20=0 11=1 21=1");
@@ -64,6 +63,97 @@ fn entities_of_all_kinds() {
         .rings()
         .rings;
     assert_eq!(rings, [vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]]);
+}
+
+/// The positions of a drawing, and how far each end of its arcs is from their centers.
+fn arcs(blocks: &str, entities: &str) -> (Graph, Vec<f64>) {
+    let graph = read(drawing(blocks, entities)).expect("a drawing");
+    let radii = graph.arcs.iter().flat_map(|&(segment, center)| {
+        let ends = graph.segments[segment].map(|i| graph.cloud.xy[i]);
+        ends.map(|p| (p[0] - center[0]).hypot(p[1] - center[1]))
+    });
+    let radii = radii.collect();
+    (graph, radii)
+}
+
+#[test]
+fn arcs_are_chords_with_centers() {
+    // The number of chords, the center and the radius, the first and the last position, and one in between.
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let cases = [
+        ("CIRCLE 10=1 20=2 40=3", 32, [1.0, 2.0], 3.0, [[4.0, 2.0], [4.0, 2.0], [-2.0, 2.0]]),
+        ("ARC 10=0 20=0 40=1 50=0 51=90", 8, [0.0; 2], 1.0, [[1.0, 0.0], [0.0, 1.0], [half, half]]),
+        ("ARC 10=0 20=0 40=1 50=270 51=0", 8, [0.0; 2], 1.0, [[0.0, -1.0], [1.0, 0.0], [half, -half]]),
+        ("ARC 10=0 20=0 40=1 50=90 51=90", 32, [0.0; 2], 1.0, [[0.0, 1.0], [0.0, 1.0], [0.0, -1.0]]),
+        // Seen from below.
+        (
+            "ARC 10=5 20=0 40=1 50=0 51=90 230=-1",
+            8,
+            [-5.0, 0.0],
+            1.0,
+            [[-6.0, 0.0], [-5.0, 1.0], [-5.0 - half, half]],
+        ),
+        // Half a circle to the right of the way, and to the left; three quarters; a flat one.
+        ("LWPOLYLINE 10=0 20=0 42=1 10=2 20=0", 16, [1.0, 0.0], 1.0, [[0.0; 2], [2.0, 0.0], [1.0, -1.0]]),
+        ("LWPOLYLINE 10=0 20=0 42=-1 10=2 20=0", 16, [1.0, 0.0], 1.0, [[0.0; 2], [2.0, 0.0], [1.0, 1.0]]),
+        (
+            "LWPOLYLINE 10=1 20=0 42=2.414213562373095 10=0 20=-1",
+            32,
+            [0.0; 2],
+            1.0,
+            [[1.0, 0.0], [0.0, -1.0], [-half, half]],
+        ),
+        (
+            "POLYLINE VERTEX 10=0 20=0 42=0.01 VERTEX 10=1 20=0 SEQEND",
+            1,
+            [0.5, 24.9975],
+            25.0025,
+            [[0.0; 2], [1.0, 0.0], [0.0; 2]],
+        ),
+        (
+            "LWPOLYLINE 70=1 10=0 20=0 42=1 10=2 20=0 42=1",
+            32,
+            [1.0, 0.0],
+            1.0,
+            [[0.0; 2], [0.0; 2], [2.0, 0.0]],
+        ),
+    ];
+    for (entities, count, center, radius, [first, last, middle]) in cases {
+        let (graph, radii) = arcs("", entities);
+        let xy = &graph.cloud.xy;
+        assert_eq!(
+            (graph.arcs.len(), graph.segments.len(), xy.len()),
+            (count, count, count + 1),
+            "{entities}"
+        );
+        let near = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-14 * (1.0 + radius);
+        assert!(graph.arcs.iter().all(|arc| near(arc.1, center)), "{entities}: {:?}", graph.arcs);
+        assert!(radii.iter().all(|r| (r - radius).abs() < 1e-14 * (1.0 + radius)), "{entities}: {radii:?}");
+        assert!(
+            near(xy[0], first) && near(xy[count], last) && near(xy[count / 2], middle),
+            "{entities}: {xy:?}"
+        );
+        assert_eq!(graph.cloud.losses, [""; 0], "{entities}");
+        assert!(graph.cloud.remarks[0].contains("11.25 degrees"), "{entities}");
+    }
+    // Those of blocks are turned and scaled; stretched, they are no arcs of circles.
+    let block = "BLOCK 2=b ARC 10=1 20=0 40=1 50=0 51=90 ENDBLK";
+    let (graph, radii) = arcs(block, "INSERT 2=b 10=10 20=0 41=2 42=2 50=90");
+    assert_eq!(
+        (graph.cloud.xy[0], graph.cloud.xy[8], graph.arcs[0].1),
+        ([10.0, 4.0], [8.0, 2.0], [10.0, 2.0])
+    );
+    assert!(radii.iter().all(|r| (r - 2.0).abs() < 1e-14));
+    let (graph, _) = arcs(block, "INSERT 2=b 10=10 20=0 41=2 42=3");
+    assert!(graph.arcs.is_empty() && graph.cloud.xy.len() == 9);
+    assert_eq!(graph.cloud.losses, ["1 arcs are stretched by blocks, and chords alone"]);
+    // A line before shifts the numbers of segments.
+    let (graph, _) = arcs("", "LINE 10=9 20=9 11=8 21=8 CIRCLE 10=0 20=0 40=1 POINT 10=7 20=7");
+    assert_eq!((graph.arcs[0].0, graph.arcs[31].0, graph.segments.len()), (1, 32, 33));
+    let (graph, _) =
+        arcs("", "CIRCLE 10=0 20=0 CIRCLE 10=0 20=0 40=-1 LWPOLYLINE 10=0 20=0 42=1e-320 10=1 20=0");
+    assert!(graph.arcs.is_empty() && graph.segments.len() == 1);
+    assert!(graph.cloud.losses[0].contains("2 CIRCLE without a radius"), "{:?}", graph.cloud.losses);
 }
 
 #[test]
