@@ -11,6 +11,7 @@ import sys
 import traceback
 from pathlib import Path
 
+import curved
 import judged
 import kept
 import shapes
@@ -52,7 +53,7 @@ def main():
                     except (Exception, SystemExit):  # meshio ends the program. A judge that cannot read is a fault of the row.
                         faults.append(f"{row}:\n{traceback.format_exc()}")
     if not chosen:
-        for judge in (*kept.JUDGES, *shapes.JUDGES, *solvers.JUDGES):
+        for judge in (*kept.JUDGES, *shapes.JUDGES, *solvers.JUDGES, *curved.JUDGES):
             try:
                 judge()
                 passed += 1

@@ -1,0 +1,74 @@
+//! Drawings with arcs as a user meets them.
+
+use crate::mesh::mesh;
+use crate::place::{Place, text};
+
+/// Groups of a drawing, apart by blanks, as lines.
+fn drawing(entities: &str) -> String {
+    format!("0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF\n").replace(' ', "\n")
+}
+
+/// A square plate with a round hole.
+const PLATE: &str =
+    "0 LWPOLYLINE 70 1 10 -2 20 -2 10 2 20 -2 10 2 20 2 10 -2 20 2 0 CIRCLE 10 0.25 20 0 40 1";
+
+fn radius(p: [f64; 2]) -> f64 {
+    (p[0] - 0.25).hypot(p[1])
+}
+
+#[test]
+fn meshes_follow_arcs() {
+    let place = Place::new();
+    place.file("plate.dxf", drawing(PLATE));
+    let run = place
+        .run("mesh plate.dxf --fill even-odd --edge 0.2 --min-angle 28 --check -o m.node -o m.ele -o m.edge");
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    assert!(text(&run.stderr).contains("1 arcs and circles are chords of at most 11.25 degrees"));
+    let m = mesh(&place, "m");
+    assert!((m.area() / (16.0 - std::f64::consts::PI) - 1.0).abs() < 0.003, "{}", m.area());
+    let (on, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) = m
+        .points
+        .iter()
+        .copied()
+        .filter(|&p| radius(p) < 1.0 + 1e-3)
+        .partition(|&p| (radius(p) - 1.0).abs() < 4e-16);
+    assert!(on.len() >= 32 && near.is_empty(), "{} {near:?}", on.len());
+
+    place.succeed("-q mesh plate.dxf --fill even-odd --edge 0.2 --second-order -o n.node -o n.ele -o n.edge");
+    let n = place.read("n.node");
+    let nodes: Vec<[f64; 2]> = n
+        .lines()
+        .skip(1)
+        .filter_map(|line| {
+            let numbers: Vec<f64> = line.split_whitespace().map_while(|word| word.parse().ok()).collect();
+            Some([*numbers.get(1)?, *numbers.get(2)?])
+        })
+        .collect();
+    let on_circle = nodes.iter().filter(|&&p| (radius(p) - 1.0).abs() < 4e-16).count();
+    // The circle ends where it begins: one position is there twice.
+    assert_eq!(on_circle, 2 * on.len() - 1);
+    assert!(nodes.iter().all(|&p| radius(p) > 1.0 - 4e-16));
+}
+
+#[test]
+fn lines_bound_where_there_are_no_polygons() {
+    let place = Place::new();
+    place.file("plate.dxf", drawing(PLATE));
+    let triangles = |fill: &str| {
+        place.succeed(&format!("-q triangulate plate.dxf {fill} -o t.ele --stats s.json"));
+        let stats: serde_json::Value = serde_json::from_str(&place.read("s.json")).expect("JSON");
+        stats["simplices"].as_u64().expect("a number") - stats["left_out"].as_u64().unwrap_or(0)
+    };
+    // The hole is a polygon of 32 corners.
+    assert_eq!(triangles("") - triangles("--fill even-odd"), 30);
+    assert_eq!(triangles("--fill even-odd"), triangles("--fill nonzero") - 30);
+}
+
+#[test]
+fn arcs_over_one_chord_are_named() {
+    let place = Place::new();
+    let two = "0 LWPOLYLINE 70 1 10 0 20 0 42 0.01 10 1 20 0 42 0.01";
+    place.file("lens.dxf", drawing(two));
+    let said = "segment 1 is no chord of an arc around its center: another arc has the same chord";
+    place.fail("mesh lens.dxf --edge 0.2 -o m.obj", 1, said);
+}
