@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io::Write;
 
-use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
+use delone::{Coordinates, Corners, Middle2, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::vector::Layer;
 use crate::formats::{
@@ -62,7 +62,7 @@ pub struct Mesh<'a, T: Triangulation> {
     /// all formats hold that: see [`Drawable::check_second_order`].
     pub second_order: bool,
     /// Middles of edges that are on arcs, by the ends of their edges; all others are halfway between the ends.
-    pub arc_middles: &'a [([VertexId; 2], [f64; 2])],
+    pub arc_middles: &'a [Middle2],
     /// In the plane, for each triangle by index the index of the one that it makes a quadrilateral with. Not all formats hold that: see
     /// [`Drawable::check_quads`]. Elements are of first order then.
     pub partners: Option<&'a [Option<usize>]>,

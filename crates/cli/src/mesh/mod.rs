@@ -15,8 +15,8 @@ mod tell;
 use std::path::Path;
 
 use delone::{
-    Constrained2, Error, Fill, Location2, Quads2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
-    VertexId,
+    Constrained2, Error, Fill, Location2, Middle2, Quads2, Refined2, Seeds2, SegmentId, Shapes2,
+    Triangulation, VertexId,
 };
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
@@ -288,11 +288,10 @@ impl Made {
     }
 
     /// Nodes in the middles of arcs.
-    fn middles(&self, kept: &Kept, label: &Path) -> Result<Vec<([VertexId; 2], [f64; 2])>, Failure> {
+    fn middles(&self, kept: &Kept, label: &Path) -> Result<Vec<Middle2>, Failure> {
         let found = self.refined.arc_middles(&self.triangulation, &self.arcs);
         let found = found.map_err(|error| refused(label, &error))?;
-        let named =
-            |([v, w], middle): ([VertexId; 2], [f64; 2])| Some(([kept.name(v)?, kept.name(w)?], middle));
+        let named = |([v, w], middle): Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
         Ok(found.into_iter().filter_map(named).collect())
     }
 

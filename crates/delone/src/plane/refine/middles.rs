@@ -19,8 +19,8 @@ use crate::plane::constrained::{Constrained2, SegmentId};
 /// most three such differences times 4, and a coefficient four products of two sides. 32 times 2^-53 is the bound, and this is twice that.
 const ERROR: f64 = 64.0 * f64::EPSILON;
 
-/// Ends of an edge, the lesser id first, and the point in the middle of it.
-type Middle = ([VertexId; 2], [f64; 2]);
+/// The ends of an edge, the lesser id first, and the point in the middle of it.
+pub type Middle2 = ([VertexId; 2], [f64; 2]);
 
 impl Refined2 {
     /// The middles of the edges that are chords of arcs ([`super::Refinement::arcs`], with the same ones), on the arcs, by the ids of their ends: further
@@ -33,7 +33,7 @@ impl Refined2 {
         &self,
         c: &Constrained2,
         arcs: &[(SegmentId, [f64; 2])],
-    ) -> Result<Vec<Middle>, Error> {
+    ) -> Result<Vec<Middle2>, Error> {
         let chords = chords(c, arcs, &self.domains.origins)?;
         let input = |e: EdgeId| {
             let ends = [c.mesh().origin(e), c.mesh().destination(e)];

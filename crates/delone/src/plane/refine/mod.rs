@@ -34,6 +34,7 @@ mod survey;
 
 pub use criteria::{Keep, Refinement};
 pub use layers::Layers2;
+pub use middles::Middle2;
 pub use quads::Quads2;
 pub use report::{LayerReport2, Reason, RefinementReport2, Unrefined2};
 pub use shapes::Shapes2;
