@@ -300,7 +300,9 @@ impl Mesh {
             asked.end()?;
             return Ok(done?);
         }
-        let done = while_wanted(py, LONG, move |wanted| {
+        let is_short = plan.adds_nothing() && size.is_none() && !areas.is_asked();
+        let items = if is_short { work(from.0.points().len(), given, false) } else { LONG };
+        let done = while_wanted(py, items, move |wanted| {
             let lengths = lengths(from.0.points())?;
             let length = |at| lengths.length(at);
             let said = Said {
