@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use delone::{EdgeId, Triangulation as _};
+use delone::{EdgeId, Triangulation as _, VertexId};
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -119,12 +119,12 @@ impl Given {
             }
         };
         first.iter().enumerate().for_each(|(v, &origin)| set(v, self.marker(origin)));
-        for side in sides.iter().filter(|side| side.is_border()) {
-            side.ends.iter().for_each(|&v| set(v, 1));
-        }
+        let border = sides.iter().filter(|side| side.is_border());
+        border.flat_map(|side| side.ends).for_each(|v| set(v, 1));
         // In holes the mesh has no segments.
-        for (ends, &marker) in self.segments.iter().zip(&self.segment_markers) {
-            ends.iter().for_each(|&v| set(v, marker));
+        for (&[a, b], &marker) in self.segments.iter().zip(&self.segment_markers) {
+            set(a, marker);
+            set(b, marker);
         }
         markers
     }
@@ -146,11 +146,11 @@ pub type Named = (&'static str, usize, Numbers);
 /// The tables that switches want, empty ones too.
 pub fn tables(this: &Content, given: &Given, s: &Switches) -> Vec<Named> {
     let (c, points) = (&this.made, this.made.points());
-    let corners = || this.inside.iter().map(|&t| c.corners(t).map(|v| v.index()));
+    let corners = || this.inside.iter().map(|&t| c.corners(t).map(VertexId::index));
     let sides: Vec<Side> = this.sides().collect();
     let edges = if s.edges || s.second_order { edges_of(this) } else { Vec::new() };
     let edge_ends =
-        || edges.iter().map(|&e| [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index()));
+        || edges.iter().map(|&e| [c.mesh().origin(e), c.mesh().destination(e)].map(VertexId::index));
     let edge_markers = || edges.iter().map(|&e| this.side(e).map_or(0, |side| given.marker_or_border(&side)));
     // Vertices that stay, and their names.
     let mut is_kept = vec![!s.jettison; points.len()];
@@ -178,12 +178,12 @@ pub fn tables(this: &Content, given: &Given, s: &Switches) -> Vec<Named> {
         found.push(("vertex_markers", 1, ints(kept.iter().map(|&v| markers[v]).chain(of_middles))));
     }
     if !s.no_triangles {
-        let named = corners().map(|three| three.map(name));
+        let rows = corners().map(|three| three.map(name));
         found.push(if s.second_order {
             let middles = middles(this, &edges, kept.len());
-            ("triangles", 6, ints(named.zip(middles).flat_map(|(a, b)| [a, b]).flatten()))
+            ("triangles", 6, ints(rows.zip(middles).flat_map(|(a, b)| [a, b]).flatten()))
         } else {
-            ("triangles", 3, ints(named.flatten()))
+            ("triangles", 3, ints(rows.flatten()))
         });
     }
     if s.neighbors {
