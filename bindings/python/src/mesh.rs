@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use delone::{
     Ask as _, Constrained2, Crossings, Domains2, EdgeId, Quads2, Reason, Refined2, Shapes2, TriangleId,
-    Triangulation as _,
+    Triangulation as _, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -312,7 +312,9 @@ impl Mesh {
             asked.end()?;
             return Ok(done?);
         }
-        let done = while_wanted(py, LONG, move |wanted| {
+        let is_short = plan.adds_nothing() && size.is_none() && !areas.is_asked();
+        let items = if is_short { work(from.0.points().len(), given, false) } else { LONG };
+        let done = while_wanted(py, items, move |wanted| {
             let lengths = lengths(from.0.points())?;
             let length = |at| lengths.length(at);
             let said = Said {
@@ -360,7 +362,7 @@ impl Content {
             return None;
         }
         let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < self.given);
-        let mut ends = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index());
+        let mut ends = [c.mesh().origin(e), c.mesh().destination(e)].map(VertexId::index);
         if first.is_some_and(|on| !on.is_forward) {
             ends.reverse();
             is_inside.reverse();

@@ -193,6 +193,13 @@ def test_regions_and_areas():
     assert delone.triangle.triangulate(SQUARE | {"holes": [[2, 2], [9, 9]]}, "p")["triangles"].shape == (7, 3)
 
 
+@pytest.mark.parametrize("switches", ["p", "pqAenj", "pqAo2en", "pqAo2ejn"])
+def test_results_may_be_written_to(switches):
+    made = delone.triangle.triangulate(FULL, switches)
+    assert all(array.flags.writeable and array.flags.c_contiguous for array in made.values())
+    assert made["triangles"].max() == len(made["vertices"]) - 1
+
+
 def test_refinement_of_a_mesh():
     first = delone.triangle.triangulate(FULL, "pq25aAe")
     first["triangle_max_area"] = np.where(first["vertices"][first["triangles"]].mean(axis=1)[:, :1] < 2, 0.02, -1)

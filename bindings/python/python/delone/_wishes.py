@@ -129,6 +129,8 @@ def wanted_of(
 
 
 def number_of(value: Any, what: str) -> float:
+    if type(value) is float:
+        return value
     array = as_numbers(value, what)
     if array.ndim or array.dtype.kind == "b":
         raise TypeError(f"{what} must be a number, not {value!r}")
@@ -136,7 +138,10 @@ def number_of(value: Any, what: str) -> float:
 
 
 def _bound(value: Any, what: str) -> float:
-    return float(_positive(np.array([number_of(value, what)]), what)[0])
+    number = number_of(value, what)
+    if not number > 0:
+        raise ValueError(f"{what} is {number}; it must be positive")
+    return number
 
 
 def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDArray[np.float64]:
@@ -147,7 +152,7 @@ def numbers_of(values: Any, what: str, count: int, finite: bool = False) -> NDAr
     return _positive(np.array(array, dtype=np.float64), what, finite)
 
 
-def _positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> NDArray[np.float64]:
+def _positive(numbers: NDArray[np.float64], what: str, finite: bool) -> NDArray[np.float64]:
     wrong = ~(numbers > 0) | (np.isinf(numbers) if finite else False)
     if wrong.any():
         row = int(np.argmax(wrong))
@@ -163,7 +168,9 @@ def seeds_of(holes: ArrayLike | None) -> NDArray[np.float64]:
 
 def regions_of(regions: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Seeds with largest areas, and attributes."""
-    array = np.empty((0, 2)) if regions is None else as_numbers(regions, "regions")
+    if regions is None:
+        return np.empty((0, 3)), np.empty(0)
+    array = as_numbers(regions, "regions")
     if array.shape == (0,):
         array = array.reshape(0, 2)
     if array.ndim != 2 or not 2 <= array.shape[1] <= 4:

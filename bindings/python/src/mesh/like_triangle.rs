@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use delone::{EdgeId, Triangulation as _};
+use delone::{EdgeId, Triangulation as _, VertexId};
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -119,12 +119,12 @@ impl Given {
             }
         };
         first.iter().enumerate().for_each(|(v, &origin)| set(v, self.marker(origin)));
-        for side in sides.iter().filter(|side| side.is_border()) {
-            side.ends.iter().for_each(|&v| set(v, 1));
-        }
+        let border = sides.iter().filter(|side| side.is_border());
+        border.flat_map(|side| side.ends).for_each(|v| set(v, 1));
         // In holes the mesh has no segments.
-        for (ends, &marker) in self.segments.iter().zip(&self.segment_markers) {
-            ends.iter().for_each(|&v| set(v, marker));
+        for (&[a, b], &marker) in self.segments.iter().zip(&self.segment_markers) {
+            set(a, marker);
+            set(b, marker);
         }
         markers
     }
@@ -136,17 +136,21 @@ pub enum Numbers {
     Floats(Vec<f64>),
 }
 
+fn ints(all: impl Iterator<Item = i32>) -> Numbers {
+    Numbers::Ints(all.collect())
+}
+
 /// A key, the columns of its table, and its numbers.
 pub type Named = (&'static str, usize, Numbers);
 
 /// The tables that switches want, empty ones too.
 pub fn tables(this: &Content, given: &Given, s: &Switches) -> Vec<Named> {
     let (c, points) = (&this.made, this.made.points());
-    let corners = || this.inside.iter().map(|&t| c.corners(t).map(|v| v.index()));
+    let corners = || this.inside.iter().map(|&t| c.corners(t).map(VertexId::index));
     let sides: Vec<Side> = this.sides().collect();
     let edges = if s.edges || s.second_order { edges_of(this) } else { Vec::new() };
     let edge_ends =
-        || edges.iter().map(|&e| [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index()));
+        || edges.iter().map(|&e| [c.mesh().origin(e), c.mesh().destination(e)].map(VertexId::index));
     let edge_markers = || edges.iter().map(|&e| this.side(e).map_or(0, |side| given.marker_or_border(&side)));
     // Vertices that stay, and their names.
     let mut is_kept = vec![!s.jettison; points.len()];
@@ -154,9 +158,7 @@ pub fn tables(this: &Content, given: &Given, s: &Switches) -> Vec<Named> {
     let kept: Vec<usize> = (0..points.len()).filter(|&v| is_kept[v]).collect();
     let mut names = vec![-1; points.len()];
     kept.iter().zip(0..).for_each(|(&v, name)| names[v] = name);
-    let named = |rows: &mut dyn Iterator<Item = [usize; 2]>| {
-        Numbers::Ints(rows.flat_map(|ends| ends.map(|v| names[v])).collect())
-    };
+    let name = |v: usize| names[v];
     // The rows of vertices, then those of the middles of edges.
     let rows = |values: &[f64], width: usize| {
         let mut all: Vec<f64> =
@@ -171,34 +173,30 @@ pub fn tables(this: &Content, given: &Given, s: &Switches) -> Vec<Named> {
         let (attributes, width) = &given.attributes;
         found.push(("vertices", 2, rows(points.as_flattened(), 2)));
         found.push(("vertex_attributes", *width, rows(attributes, *width)));
-        let all = given.markers(points.len(), &sides);
-        let mut markers: Vec<i32> = kept.iter().map(|&v| all[v]).collect();
-        markers.extend(edge_markers().filter(|_| s.second_order));
-        found.push(("vertex_markers", 1, Numbers::Ints(markers)));
+        let markers = given.markers(points.len(), &sides);
+        let of_middles = edge_markers().filter(|_| s.second_order);
+        found.push(("vertex_markers", 1, ints(kept.iter().map(|&v| markers[v]).chain(of_middles))));
     }
     if !s.no_triangles {
-        let named = corners().map(|three| three.map(|v| names[v]));
-        let rows = if s.second_order {
+        let rows = corners().map(|three| three.map(name));
+        found.push(if s.second_order {
             let middles = middles(this, &edges, kept.len());
-            named.zip(middles).flat_map(|(a, b)| [a, b]).flatten().collect()
+            ("triangles", 6, ints(rows.zip(middles).flat_map(|(a, b)| [a, b]).flatten()))
         } else {
-            named.flatten().collect()
-        };
-        found.push(("triangles", if s.second_order { 6 } else { 3 }, Numbers::Ints(rows)));
+            ("triangles", 3, ints(rows.flatten()))
+        });
     }
     if s.neighbors {
-        let rows = this.neighbors().flatten().map(|row| row as i32).collect();
-        found.push(("neighbors", 3, Numbers::Ints(rows)));
+        found.push(("neighbors", 3, ints(this.neighbors().flatten().map(|row| row as i32))));
     }
     if (s.poly || s.convex) && !s.no_segments {
         let shown = || sides.iter().filter(|side| given.origin(side) != BETWEEN);
-        found.push(("segments", 2, named(&mut shown().map(Side::with_mesh_on_right))));
-        let markers = shown().map(|side| given.marker_or_border(side)).collect();
-        found.push(("segment_markers", 1, Numbers::Ints(markers)));
+        found.push(("segments", 2, ints(shown().flat_map(|side| side.with_mesh_on_right().map(name)))));
+        found.push(("segment_markers", 1, ints(shown().map(|side| given.marker_or_border(side)))));
     }
     if s.edges {
-        found.push(("edges", 2, named(&mut edge_ends())));
-        found.push(("edge_markers", 1, Numbers::Ints(edge_markers().collect())));
+        found.push(("edges", 2, ints(edge_ends().flat_map(|ends| ends.map(name)))));
+        found.push(("edge_markers", 1, ints(edge_markers())));
     }
     found
 }

@@ -174,6 +174,14 @@ impl<'py> Wishes<'py> {
 }
 
 impl Plan {
+    /// Whether it asks for no new vertices, so that the work is as long as its input.
+    pub(super) fn adds_nothing(&self) -> bool {
+        let bounds = [self.max_area, self.max_edge, self.edge];
+        let are_bounded = self.seeds.regions.iter().any(|seed| seed.max_area.is_some_and(f64::is_finite));
+        let is_bounded = are_bounded || bounds.iter().any(Option::is_some);
+        self.min_angle <= 0.0 && !is_bounded && !self.conforming && self.smooth == 0 && self.layers.is_none()
+    }
+
     pub(super) fn refine(
         &self,
         (mut made, known): (Constrained2, Option<Domains2>),
