@@ -212,3 +212,19 @@ def test_lengths_of_edges_make_all_anew():
     made = delone.mesh(points / 2, triangles=triangles, edge=0.1, min_angle=30)
     made.check()
     assert made.shapes.quality_mean > 0.97 and made.area == pytest.approx(1)
+
+
+def test_nodes_of_second_order_split_nothing() -> None:
+    square = {"vertices": [[0, 0], [1, 0], [1, 1], [0, 1]], "segments": [[0, 1], [1, 2], [2, 3], [3, 0]]}
+    for first in ("po2", "pq30a0.2o2"):
+        old = delone.triangle.triangulate(square, first)
+        for switches in ("r", "rp", "rq30", "rj", "rpqaAe", "rq30o2en"):
+            new = delone.triangle.triangulate(old, switches)
+            assert len(new["triangles"]) == len(old["triangles"])
+            if "j" not in switches:
+                assert (new["vertices"][: len(old["vertices"])] == old["vertices"]).all()
+        fine = delone.triangle.triangulate(old, "ra0.01")
+        corners = fine["vertices"][fine["triangles"][:, :3]]
+        (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        areas = (ux * vy - uy * vx) / 2
+        assert len(areas) > 100 and areas.min() > 0 and areas.max() <= 0.01 and abs(areas.sum() - 1) < 1e-12

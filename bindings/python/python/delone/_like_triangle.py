@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._constrained import ConstrainedDelaunay
 from ._points import as_numbers, as_points, as_segments
-from ._sides import all_edges, keys_of, pairs_of, rows_of, sides_of
+from ._sides import all_edges, keys_of, pairs_of, rows_of, set_apart, sides_of
 from ._switches import Switches
 from ._wishes import PLAIN, Test, Wishes
 
@@ -175,13 +175,14 @@ def _refined_again(given: Given, switches: Switches, refine_if: Test | None) -> 
     if given.triangle_areas is not None:
         wishes["of"] = old.triangulation._core
         wishes["max_areas"] = np.append(given.triangle_areas, np.inf)[old.rows]
+    vertices = set_apart(given.vertices, np.concatenate([triangles.ravel(), given.segments.ravel()]))
     try:
-        core = _delone.Mesh(given.vertices, segments, True, {**wishes, "triangles": triangles})
+        core = _delone.Mesh(vertices, segments, True, {**wishes, "triangles": triangles})
     except ValueError as error:
         if not str(error).startswith("triangle "):
             raise
         warnings.warn(f"{error}: all triangles are made anew", stacklevel=4)
-        core = _delone.Mesh(given.vertices, segments, True, wishes)
+        core = _delone.Mesh(vertices, segments, True, wishes)
     return Made(core, origins, old, np.empty(0))
 
 
@@ -301,6 +302,8 @@ def arrays_of(given: Given, switches: Switches, made: Made) -> dict[str, NDArray
     found: dict[str, NDArray[Any]] = made.core.like_triangle(
         switches, given.vertex_markers, given.segments, given.segment_markers, made.origins, attributes
     )
+    if switches.refine and not switches.jettison and "vertices" in found:
+        found["vertices"][: len(given.vertices)] = given.vertices
     more = {} if switches.no_triangles else {"triangle_attributes": _triangle_attributes(given, switches, made)}
     if switches.poly and not switches.no_segments:
         more |= given.seeds

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._arcs import SecondOrder, second_order_of
 from ._errors import CrossingError, restores
-from ._sides import rows_of, sides_of
+from ._sides import rows_of, set_apart, sides_of
 from ._wishes import PLAIN, Size, Test, Wanted, Wishes, flags_of, numbers_of, wanted_of
 
 T = TypeVar("T")
@@ -117,17 +117,7 @@ class Mesh:
         if len(again):
             raise ValueError(f"triangle {again[0]} has the corners of an earlier one")
         sides = sides_of(corners, first[segments], np.empty((0, 0)) if attributes is None else attributes[:, None])
-        # A point that nothing uses, such as the center of a circle, would split a triangle: so it is put outside of all.
-        unused = np.ones(len(points), bool)
-        unused[corners], unused[first[segments]] = False, False
-        unused &= first == np.arange(len(points))
-        apart = points.copy()
-        if len(corners) and unused.any():
-            used = points[corners.ravel()]
-            with np.errstate(over="ignore"):
-                outside = used.max(axis=0) + np.ptp(used, axis=0).max()
-            if np.isfinite(outside).all():
-                apart[unused] = outside
+        apart = set_apart(points, np.concatenate([corners.ravel(), segments.ravel()]))
         origin = (apart, sides.segments, split, np.maximum(sides.origins, -1), attributes, points)
         try:
             made = cls._make(origin, {**PLAIN, "triangles": corners}, np.empty(0))

@@ -55,6 +55,25 @@ def _between(sides: Ints, counts: Ints, attributes: Floats) -> NDArray[np.bool_]
     return np.asarray((counts == 2) & (least < largest))
 
 
+def set_apart(points: Floats, used: Ints) -> Floats:
+    """With points that nothing has outside of all others: where they are, such as the center of a circle or the middle of a side,
+    they would split triangles. Points at the place of one that is used stay."""
+    apart = np.ones(len(points), bool)
+    apart[used] = False
+    if not len(used) or not apart.any():
+        return points
+    # Zero has no sign here.
+    _, places = np.unique(points + 0.0, axis=0, return_inverse=True)
+    apart &= ~np.isin(places.ravel(), places.ravel()[used])
+    with np.errstate(over="ignore"):
+        outside = points[used].max(axis=0) + np.ptp(points[used], axis=0).max()
+    if not np.isfinite(outside).all():
+        return points
+    moved = points.copy()
+    moved[apart] = outside
+    return moved
+
+
 def rows_of(triangles: Ints, known: Ints) -> Ints:
     """For each triangle the row of the first one with the same corners among `known`, or -1."""
     count = len(known)

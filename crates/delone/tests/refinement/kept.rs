@@ -3,7 +3,7 @@
 use delone::{Constrained2, Error, Fill, Refined2, Refinement, Triangulation as _, VertexId};
 use delone_generators::{Kind, Random};
 
-use super::judge::{Points, coordinates, judge};
+use super::judge::{Points, area, coordinates, judge};
 
 /// Triangles by the indices of their corners.
 type Triangles = Vec<[usize; 3]>;
@@ -184,4 +184,25 @@ fn lengths_of_edges_keep_nothing() {
     assert_eq!(c.check(), Ok(()));
     assert!(refined.kept.is_empty());
     assert_eq!(coordinates(&c, &refined), expected);
+}
+
+/// Vertices on the sides of given triangles, and inside of them: they split what they are in.
+#[test]
+fn vertices_on_sides_split_given_triangles() {
+    let points: Points = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]]
+        .map(|p| p.map(f64::from))
+        .to_vec();
+    let given = [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(VertexId::new));
+    let segments = [[0, 1], [1, 2], [2, 3], [3, 0]];
+    for how in [
+        Refinement::new().min_angle(0.0),
+        Refinement::new().max_area(0.01),
+        Refinement::new().min_angle(30.0),
+    ] {
+        let before = Constrained2::from_parts(&points, &segments).expect("finite");
+        let mut c = before.clone();
+        let refined = how.triangles(&given).run(&mut c).expect("it ends");
+        c.check().expect("a triangulation");
+        assert!((area(&c, |t| refined.domains.is_inside(t)) - 4.0).abs() < 1e-12);
+    }
 }

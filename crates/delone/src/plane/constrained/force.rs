@@ -66,11 +66,13 @@ impl Layer {
     /// A fixed edge that it crosses.
     pub(super) fn lay(&mut self, [a, b]: [Place; 2], channel: &mut Channel) -> Result<Laid, EdgeId> {
         let Beginning { leaves, at_second } = self.ground().begin(a, b);
-        let e = match leaves {
-            Leaves::Along(e) => e,
-            Leaves::Across(across) => self.dig(if at_second { [b, a] } else { [a, b] }, across, channel)?,
+        let (e, is_new) = match leaves {
+            Leaves::Along(e) => (e, !self.mesh.is_fixed(e)),
+            // Its mark is that of an edge that was in its place.
+            Leaves::Across(across) => {
+                (self.dig(if at_second { [b, a] } else { [a, b] }, across, channel)?, true)
+            }
         };
-        let is_new = !self.mesh.is_fixed(e);
         self.mesh.set_fixed(e, true);
         Ok(Laid { e, at_second, is_new })
     }

@@ -9,11 +9,11 @@ use std::collections::BTreeSet;
 
 use delone_predicates::orient2d;
 
+use super::force::Laid;
 use super::segments::SegmentId;
 use super::{Constrained2, Domains2};
 use crate::error::Error;
-use crate::ids::{EdgeId, Place, VertexId};
-use crate::mesh::Mesh2;
+use crate::ids::{Place, VertexId};
 use crate::sorting;
 
 /// The ends of an edge in order, and the first triangle that has it.
@@ -46,10 +46,7 @@ impl Constrained2 {
         let mesh = self.mesh();
         let places = |[a, b]: [VertexId; 2]| Some(sorted([mesh.place(a)?, mesh.place(b)?]));
         let mut kept: BTreeSet<[Place; 2]> = known.into_iter().filter_map(places).collect();
-        let each = |mesh: &Mesh2, e: EdgeId| {
-            kept.insert(sorted([mesh.tail(e), mesh.head(e)]));
-        };
-        if let Some((ends, triangle)) = self.lay_missing(&sides, each) {
+        if let Some((ends, triangle)) = self.lay_missing(&sides, &mut kept) {
             let [p, q] = ends.map(|v| self.graph.base.points[v.index()]);
             let near = [0, 1].map(|k| 0.5 * p[k] + 0.5 * q[k]);
             return Err(Error::KeptTriangle {
@@ -61,13 +58,23 @@ impl Constrained2 {
         Ok(kept)
     }
 
-    /// Fixes the sides that are no edges, and tells of them. Gives the first that crosses a constraint or another side.
-    fn lay_missing(&mut self, sides: &[Side], mut each: impl FnMut(&Mesh2, EdgeId)) -> Option<Side> {
-        for &(ends, triangle) in sides {
+    /// Fixes the sides that are no edges. A side through vertices is several edges; those that are constraints are not only kept. Gives the first
+    /// that crosses a constraint or another side.
+    fn lay_missing(&mut self, sides: &[Side], kept: &mut BTreeSet<[Place; 2]>) -> Option<Side> {
+        for &side in sides {
             let layer = &mut self.graph.base;
-            let is_there = layer.mesh.edge_between(ends[0], ends[1]).is_some();
-            if !is_there && layer.force(ends, &mut self.channel, &mut each).is_err() {
-                return Some((ends, triangle));
+            let [mut a, mut b] = side.0;
+            if layer.mesh.edge_between(a, b).is_some() {
+                continue;
+            }
+            while a != b {
+                let Ok(Laid { e, at_second, is_new }) = layer.lay([a, b], &mut self.channel) else {
+                    return Some(side);
+                };
+                if is_new {
+                    kept.insert(sorted([layer.mesh.tail(e), layer.mesh.head(e)]));
+                }
+                *(if at_second { &mut b } else { &mut a }) = layer.mesh.head(e);
             }
         }
         // An edge that was there may have been crossed since.
