@@ -6,8 +6,8 @@
 
 use delone::surface::{Contours, Interpolator, Levels, Outside, gradients};
 use delone::{
-    Constrained2, Crossings, Delaunay2, Delaunay3, Error, Fill, Furthest2, Graph, Hull2, Layers2, Quads2,
-    Refinement, Region2, Regular2, Regular3, Relaxation2, VertexId, VoronoiEdge2,
+    AllQuads2, Constrained2, Crossings, Delaunay2, Delaunay3, Error, Fill, Furthest2, Graph, Hull2, Layers2,
+    Quads2, Refinement, Region2, Regular2, Regular3, Relaxation2, VertexId, VoronoiEdge2,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::share;
@@ -142,7 +142,7 @@ fn kept(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
     outcome
 }
 
-/// A mesh, made coarser, in quadrilaterals and the triangles that are left.
+/// A mesh, made coarser, in quadrilaterals and the triangles that are left, and in quadrilaterals alone.
 fn coarse(set: &Set<2>) -> Outcome<2> {
     let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
     let fine = Refinement::new().max_area(set.unit * set.unit / 512.0).max_vertices(3000);
@@ -152,6 +152,8 @@ fn coarse(set: &Set<2>) -> Outcome<2> {
     quads.corners.iter().for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
     let corners = quads.triangles.iter().map(|&t| c.mesh().corners(t));
     corners.for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
+    let all = AllQuads2::of(&c, &quads);
+    (0..all.corners.len()).for_each(|row| outcome.set(all.places(&c, row).to_vec()));
     outcome
 }
 

@@ -117,6 +117,9 @@ pub(crate) struct MeshArgs {
     /// Quadrilaterals where two triangles make one with angles from 30 to 150 degrees, and triangles elsewhere.
     #[arg(long, conflicts_with = "second_order")]
     pub(crate) quads: bool,
+    /// Quadrilaterals alone: each of --quads becomes four and each triangle three, so edges are half as long as asked for.
+    #[arg(long, conflicts_with_all = ["second_order", "quads"])]
+    pub(crate) all_quads: bool,
     /// The type of elements in .inp files, such as CPS6 for plane stress [default: CPS3; CPE6 with --second-order, which is plane strain, because
     /// more programs know it].
     #[arg(long, value_name = "TYPE", value_parser = element)]

@@ -2,6 +2,7 @@
 
 use delone::{Constrained2, Keep, Layers2, Refinement};
 
+use super::quads::Wanted;
 use crate::args::{CrossingsName, KeepName, LayerArgs, MeshArgs, Switches};
 use crate::message::{Failure, note};
 
@@ -52,7 +53,7 @@ pub(super) struct Traits {
     pub(super) convex: bool,
     pub(super) ignore_holes: bool,
     pub(super) second_order: bool,
-    pub(super) quads: bool,
+    pub(super) quads: Wanted,
     pub(super) drop_unused: bool,
     pub(super) check: bool,
     pub(super) histogram: bool,
@@ -98,7 +99,7 @@ impl Plan {
                 convex: args.convex,
                 ignore_holes: args.ignore_holes,
                 second_order: args.second_order,
-                quads: args.quads,
+                quads: quads(args),
                 drop_unused: args.drop_unused,
                 check: args.check,
                 histogram: args.histogram,
@@ -151,7 +152,7 @@ impl Plan {
                 convex: switches.has('c'),
                 ignore_holes: switches.has('O'),
                 second_order: switches.has('o'),
-                quads: args.quads,
+                quads: quads(args),
                 drop_unused: switches.has('j'),
                 check: args.check || switches.has('C'),
                 histogram: args.histogram || switches.has('V'),
@@ -185,6 +186,15 @@ impl Plan {
             wanted = wanted.layers(layers);
         }
         wanted
+    }
+}
+
+/// Which cells are to have four corners.
+fn quads(args: &MeshArgs) -> Wanted {
+    match (args.all_quads, args.quads) {
+        (true, _) => Wanted::All,
+        (false, true) => Wanted::Pairs,
+        (false, false) => Wanted::Nothing,
     }
 }
 

@@ -13,6 +13,7 @@
 //!
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
+mod all_quads;
 mod coarsen;
 mod criteria;
 mod free;
@@ -30,6 +31,7 @@ mod smooth;
 mod split;
 mod survey;
 
+pub use all_quads::AllQuads2;
 pub use criteria::{Keep, Refinement};
 pub use layers::Layers2;
 pub use quads::Quads2;
