@@ -152,8 +152,10 @@ fn coarse(set: &Set<2>) -> Outcome<2> {
     quads.corners.iter().for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
     let corners = quads.triangles.iter().map(|&t| c.mesh().corners(t));
     corners.for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
-    let all = AllQuads2::of(&c, &quads);
-    (0..all.corners.len()).for_each(|row| outcome.set(all.places(&c, row).to_vec()));
+    let mut all = AllQuads2::of(&c, &quads);
+    (0..all.corners.len()).for_each(|row| outcome.set(all.places(row).to_vec()));
+    all.smooth(&c, &coarse, 2);
+    outcome.measure(&[], all.angles().map_or(0.0, |angles| angles[0].round()), 0);
     outcome
 }
 

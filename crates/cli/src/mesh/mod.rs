@@ -93,7 +93,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(left) = tell::left(report).filter(|_| is_strict()) {
         return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
     }
-    let cells = Cells::of(&made, plan.traits.quads)?;
+    let cells = Cells::of(&made, plan.traits.quads, plan.smooth_quads)?;
     cells.tell_left(quiet);
     if report.triangles == 0 && c.triangle_count() > 0 {
         let why = if made.graph.holes.is_empty() {
@@ -265,7 +265,7 @@ impl Made {
         self.naming.tell(targets, quiet);
         let _phase = Phase::start(quiet, "writing");
         match cells {
-            Cells::Parts(quads) => quads::write_parts(&mesh, quads, targets, options, quiet),
+            Cells::Parts(quads) => quads::write_parts((self, quads), &mesh, targets, options, quiet),
             _ => write_all(&mesh, targets, options, quiet),
         }
     }

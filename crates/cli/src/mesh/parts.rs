@@ -29,11 +29,16 @@ impl<'a> Parts<'a> {
             Some(new) => VertexId::new(before + new),
             None => kept.name(VertexId::new(i)).unwrap_or(VertexId::new(i)),
         };
-        let points = kept.points.iter().chain(&quads.points).copied().collect();
+        let mut points: Vec<[f64; 2]> =
+            kept.points.iter().chain(&quads.points[quads.first..]).copied().collect();
         let corners: Vec<[VertexId; 4]> = quads.corners.iter().map(|corners| corners.map(name)).collect();
+        // Smoothing moves vertices too.
+        for (places, names) in quads.corners.iter().zip(&corners) {
+            points[names[0].index()] = quads.points[places[0]];
+        }
         let mut origins: Vec<Vec<VertexId>> =
             quads.middles.iter().map(|ends| ends.map(|v| name(v.index())).to_vec()).collect();
-        origins.resize(quads.points.len(), Vec::new());
+        origins.resize(quads.points.len() - quads.first, Vec::new());
         corners.iter().for_each(|[corner, _, center, _]| origins[center.index() - before].push(*corner));
         let mut sides: Vec<([VertexId; 2], usize, usize)> = Vec::with_capacity(4 * corners.len());
         for (q, corners) in corners.iter().enumerate() {
@@ -61,16 +66,26 @@ impl<'a> Parts<'a> {
         self.quads.triangles.iter().flat_map(|t| [values[t.index()]; 2]).collect()
     }
 
-    /// Values of the points, and means of these for the new ones.
-    pub(super) fn means(&self, values: &[f64]) -> Vec<f64> {
-        let value = |v: VertexId| values[v.index()];
-        let of = |origins: &Vec<VertexId>| match origins[..] {
-            [a, b] => mean([a, b].map(value)),
-            [a, b, c] => mean([a, b, c].map(value)),
-            [a, b, c, d] => mean([a, b, c, d].map(value)),
-            _ => 0.0,
+    /// Values of the points, and means of these for the new ones; those that smoothing has moved are asked for by their places.
+    pub(super) fn means(&self, values: &[f64], of_moved: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+        let (count, before) = (self.kept.points.len(), &self.kept.points);
+        let value = |i: usize| {
+            let mean_of = |origins: &[VertexId], of: &dyn Fn(VertexId) -> f64| match *origins {
+                [a, b] => mean([a, b].map(of)),
+                [a, b, c] => mean([a, b, c].map(of)),
+                [a, b, c, d] => mean([a, b, c, d].map(of)),
+                _ => 0.0,
+            };
+            let own = [VertexId::new(i); 2];
+            let origins = i.checked_sub(count).map_or(&own[..], |new| &self.origins[new]);
+            let place = [0, 1].map(|k| mean_of(origins, &|v| before[v.index()][k]));
+            if place == self.points[i] {
+                mean_of(origins, &|v| values[v.index()])
+            } else {
+                of_moved(self.points[i])
+            }
         };
-        values.iter().copied().chain(self.origins.iter().map(of)).collect()
+        (0..self.points.len()).map(value).collect()
     }
 
     /// The new point in the middle of an edge.

@@ -28,8 +28,9 @@ pub(super) struct Plan {
     pub(super) keep: Keep,
     /// Boundary layers, on which segments ever.
     pub(super) layers: Option<Layers2>,
-    /// Rounds of smoothing.
+    /// Rounds of smoothing, and those of quadrilaterals.
     pub(super) smooth: usize,
+    pub(super) smooth_quads: usize,
     /// The treatment of segments that cross.
     pub(super) crossings: CrossingsName,
     /// Whether the regions of triangles are written.
@@ -88,6 +89,7 @@ impl Plan {
             },
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
+            smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
             regions: Written::AsGiven,
             markers: Written::AsGiven,
@@ -137,6 +139,7 @@ impl Plan {
             },
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
+            smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Split),
             regions: match (switches.has('A'), switches.has('r')) {
                 (true, _) => Written::Always,
@@ -188,6 +191,9 @@ impl Plan {
         wanted
     }
 }
+
+/// Rounds of smoothing for quadrilaterals, if nothing is said: more change little.
+const ROUNDS_FOR_QUADS: usize = 5;
 
 /// Which cells are to have four corners.
 fn quads(args: &MeshArgs) -> Wanted {

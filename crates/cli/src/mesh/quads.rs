@@ -7,7 +7,7 @@ use serde_json::json;
 use super::kept::Kept;
 use super::names::Target;
 use super::parts::Parts;
-use super::{Made, write_all};
+use super::{Made, at, write_all};
 use crate::message::{Failure, grouped, is_strict, warn};
 use crate::stats::Stats;
 
@@ -34,13 +34,18 @@ pub(super) enum Cells {
 }
 
 impl Cells {
-    pub(super) fn of(made: &Made, wanted: Wanted) -> Result<Self, Failure> {
+    /// Rounds of smoothing are for parts alone: pairs stay triangles of a Delaunay triangulation.
+    pub(super) fn of(made: &Made, wanted: Wanted, rounds: usize) -> Result<Self, Failure> {
         let c = &made.triangulation;
         let pairs = || Quads2::of(c, &made.refined);
         let cells = match wanted {
             Wanted::Nothing => Self::Triangles,
             Wanted::Pairs => Self::Pairs(pairs()),
-            Wanted::All => Self::Parts(AllQuads2::of(c, &pairs())),
+            Wanted::All => {
+                let mut parts = AllQuads2::of(c, &pairs());
+                parts.smooth(c, &made.refined, rounds);
+                Self::Parts(parts)
+            }
         };
         match cells.left().filter(|_| is_strict()) {
             Some(left) => Err(Failure::new(
@@ -74,7 +79,7 @@ impl Cells {
             Self::Triangles => return,
             Self::Pairs(quads) => (quads.corners.len(), quads.triangles.len(), 0, 0, quads.angles(c)),
             Self::Parts(quads) => {
-                (quads.corners.len(), 0, quads.points.len(), quads.left.len(), quads.angles(c))
+                (quads.corners.len(), 0, quads.points.len() - quads.first, quads.left.len(), quads.angles())
             }
         };
         let [smallest, largest] = angles.unwrap_or_default();
@@ -99,8 +104,8 @@ impl Cells {
 
 /// Writes the parts of the cells of a mesh: sides are halves of its sides, with their markers, and parts have the regions of their cells.
 pub(super) fn write_parts(
+    (made, quads): (&Made, &AllQuads2),
     mesh: &Mesh<Kept>,
-    quads: &AllQuads2,
     targets: &[Target],
     options: &picture::Options,
     quiet: bool,
@@ -116,7 +121,9 @@ pub(super) fn write_parts(
     let regions = mesh.regions.map(|regions| parts.of_cells(regions));
     let rows = mesh.features.map(|features| parts.of_cells(features.of));
     let features = mesh.features.zip(rows.as_ref()).map(|(features, of)| Rows { of, ..features });
-    let heights = mesh.heights.map(|heights| parts.means(heights));
+    let in_triangles = |p: [f64; 2], values: &[f64]| at(&made.triangulation, p, 1, values)[0];
+    let heights = mesh.heights.zip(made.heights.as_ref());
+    let heights = heights.map(|(heights, all)| parts.means(heights, |p| in_triangles(p, all)));
     let point_markers = mesh.point_markers.map(|of_points| {
         let mut markers = of_points.to_vec();
         markers.resize(parts.points.len(), 0);

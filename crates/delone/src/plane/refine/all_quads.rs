@@ -16,10 +16,10 @@ use crate::plane::Constrained2;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct AllQuads2 {
-    /// The number of points of the triangulation: new points are numbered from here.
-    pub first: usize,
-    /// New points: the middles of edges, then the centers of cells.
+    /// The points of the triangulation, then the middles of edges, then the centers of cells.
     pub points: Vec<[f64; 2]>,
+    /// The number of the first middle.
+    pub first: usize,
     /// The edge that each middle is of, its lesser vertex first, by increasing vertices.
     pub middles: Vec<[VertexId; 2]>,
     /// The corners of each quadrilateral, counter-clockwise: a vertex, the middle of an edge, the center, the middle of an edge.
@@ -64,9 +64,10 @@ impl AllQuads2 {
             let [p, q] = ends.map(|v| c.point(v));
             [0, 1].map(|k| mean([p[k], q[k]]))
         });
-        let mut made = Self { first, points: halfway.collect(), ..Self::default() };
+        let points = c.points().iter().copied().chain(halfway).collect();
+        let mut made = Self { points, first, ..Self::default() };
         for (corners, t) in &cells {
-            let center = first + made.points.len();
+            let center = made.points.len();
             made.points.push(center_of(c, corners));
             let middle = |k: usize| first + middles.partition_point(|ends| *ends < side(corners, k));
             for (k, v) in corners.iter().enumerate() {
@@ -76,25 +77,27 @@ impl AllQuads2 {
             }
         }
         made.middles = middles;
-        made.left = (0..made.corners.len()).filter(|&row| !is_convex(made.places(c, row))).collect();
+        made.judge();
         made
+    }
+
+    /// Notes which quadrilaterals are not convex.
+    pub(super) fn judge(&mut self) {
+        self.left = (0..self.corners.len()).filter(|&row| !is_convex(self.places(row))).collect();
     }
 
     /// The places of the corners of a quadrilateral.
     ///
     /// # Panics
     ///
-    /// If there is no such quadrilateral, or if the triangulation is another one.
-    pub fn places(&self, c: &Constrained2, row: usize) -> [[f64; 2]; 4] {
-        self.corners[row].map(|i| match i.checked_sub(self.first) {
-            Some(new) => self.points[new],
-            None => c.points()[i],
-        })
+    /// If there is no such quadrilateral.
+    pub fn places(&self, row: usize) -> [[f64; 2]; 4] {
+        self.corners[row].map(|i| self.points[i])
     }
 
     /// The smallest and the largest angle of the quadrilaterals in degrees, rounded; nothing if there are none.
-    pub fn angles(&self, c: &Constrained2) -> Option<[f64; 2]> {
-        range_of_angles((0..self.corners.len()).map(|row| self.places(c, row)))
+    pub fn angles(&self) -> Option<[f64; 2]> {
+        range_of_angles((0..self.corners.len()).map(|row| self.places(row)))
     }
 }
 

@@ -28,6 +28,7 @@ mod rules;
 mod shape;
 mod shapes;
 mod smooth;
+mod smooth_quads;
 mod split;
 mod survey;
 
