@@ -97,3 +97,60 @@ fn rounding_that_bends_quadrilaterals_is_told() {
     assert!(said.contains("3 quadrilaterals are not convex"), "{said}");
     place.fail("mesh tiny.csv --min-angle 0 --all-quads --strict -o t.su2", 1, "not convex");
 }
+
+#[test]
+fn quadrilaterals_are_read_as_two_triangles() {
+    let place = Place::new();
+    place.file("plan.poly", PLAN);
+    place.succeed("-q mesh plan.poly --min-angle 30 --max-area 0.5 -o t.ele -o t.msh");
+    for kind in ["msh", "mesh", "su2"] {
+        place.succeed(&format!("-q mesh plan.poly --min-angle 30 --max-area 0.5 --quads -o q.{kind}"));
+        let line = format!("mesh q.{kind} --refine q.{kind} --min-angle 0 -o again.ele -o again.msh");
+        let said = text(&place.run(&line).stderr);
+        assert!(said.contains(&format!("note: q.{kind}: ")), "{said}");
+        assert!(said.contains(" quadrilaterals are read as two triangles each"), "{said}");
+        // The diagonals are those that there were, so nothing is new.
+        let triangles = |name: &str| {
+            let mut rows: Vec<Vec<usize>> = numbers(&place.read(name));
+            rows.iter_mut().for_each(|row| row.sort_unstable());
+            rows.sort_unstable();
+            rows
+        };
+        assert!(said.contains("(0 new inside, 0 on constraints)"), "{said}");
+        assert_eq!(triangles("again.ele").len(), triangles("t.ele").len(), "{kind}");
+        if kind != "su2" {
+            // Regions stay: so many triangles are of each.
+            let regions = |name: &str| {
+                let text = place.read(name);
+                let words = text.lines().map(|line| line.split(' ').collect::<Vec<_>>());
+                let blocks = words.filter(|words| matches!(words[..], ["2", _, "2", _]));
+                blocks.map(|words| words.join(" ")).collect::<Vec<_>>()
+            };
+            assert_eq!(regions("again.msh"), regions("t.msh"), "{kind}");
+        }
+    }
+    place.file("p.csv", "0,0\n1,0\n1,1\n0,1\n");
+    place.succeed("-q mesh p.csv --min-angle 0 --quads -o c.su2");
+    assert_eq!(place.read("c.su2").lines().filter(|line| line.starts_with("9 ")).count(), 1);
+    let said = place.run("check p.csv c.su2");
+    assert!(text(&said.stdout).contains("canonical"), "{}", text(&said.stdout));
+    assert!(text(&said.stderr).contains("c.su2: 1 quadrilaterals"), "{}", text(&said.stderr));
+    // One that crosses itself is named.
+    let crossed = place.read("c.su2");
+    let crossed = crossed.lines().map(|line| if line.starts_with("9 ") { "9 0 2 1 3 0" } else { line });
+    place.file("x.su2", crossed.collect::<Vec<_>>().join("\n"));
+    place.fail(
+        "mesh x.su2 --refine x.su2 -o r.ele",
+        1,
+        "points 0, 2, 1 and 3, counted from 0, crosses itself",
+    );
+    place.fail("check p.csv x.su2", 1, "crosses itself");
+}
+
+/// The rows of an `.ele` file without their numbers and attributes.
+fn numbers(text: &str) -> Vec<Vec<usize>> {
+    let rows = text.lines().skip(1).filter(|line| !line.starts_with('#'));
+    let row =
+        |line: &str| line.split_whitespace().map_while(|word| word.parse().ok()).skip(1).take(3).collect();
+    rows.map(row).collect()
+}
