@@ -209,7 +209,7 @@ fn read_chunks_with(
     Ok(rest)
 }
 
-/// Reads the triangles of a mesh file as indices into its points, from 0. In files of Gmsh, Medit and SU2 a quadrilateral is two of them: see
+/// Reads the triangles of a mesh file as indices into its points, from 0. In files of Gmsh, Medit, SU2 and VTK a quadrilateral is two of them: see
 /// [`count_quads`].
 ///
 /// # Errors
@@ -225,6 +225,8 @@ pub fn count_quads(source: Box<dyn Source>, format: Format) -> Result<usize, Err
         Format::Msh => formats::msh::count_quads(source),
         Format::Medit => Ok(formats::medit::read(source)?.quads.len()),
         Format::Su2 => Ok(formats::su2::read(source)?.quads.len()),
+        Format::Vtu | Format::Vtp => formats::vtk::count_quads(source, false),
+        Format::Vtk => formats::vtk::count_quads(source, true),
         _ => Ok(0),
     }
 }

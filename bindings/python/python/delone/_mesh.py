@@ -355,9 +355,9 @@ class Mesh:
         return self._once("quads", lambda: MeshQuads(*self._core.quads()))
 
     def all_quads(self, smooth: int = 5) -> MeshAllQuads:
-        """Quadrilaterals alone: each of `quads` becomes four and each triangle three, about its center; so edges are about half as
-        long. New points inside move to where quadrilaterals are better, in rounds; those of the input, on segments and in boundary
-        layers stay. All are convex, which is decided exactly, but those in `left`.
+        """Quadrilaterals alone: each of `quads` becomes four and each triangle three, about its center; so edges are about half
+        as long. New points inside move to where quadrilaterals are better, in rounds; those of the input, on segments and in
+        boundary layers stay. All are convex, which is decided exactly, but those in `left`.
 
         Parameters
         ----------
