@@ -42,7 +42,7 @@ except ImportError:
 UTM = "EPSG:25832"
 
 # Kinds of elements of SU2.
-KINDS_OF_SU2 = {"line": 3, "triangle": 5, "tetra": 10}
+KINDS_OF_SU2 = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10}
 
 
 def write_elements(file, corners, kind, cells, markers=None):
@@ -382,6 +382,40 @@ def triangles_of(kind):
     else:
         pyvista.PolyData.from_regular_faces(points, triangles).save(file)
     run("check", "flat.npy", file.name)
+    if kind in ("msh", "mesh", "su2", "vtu"):
+        # Two triangles that make a convex quadrilateral are one cell. They are Delaunay, so it has the diagonal again.
+        file = FOLDER / f"quads.{kind}"
+        pairs, left = quads_of_triangles()
+        if kind == "su2":
+            write_elements(file, flat, "quad", pairs)
+            more = [f"5 {' '.join(map(str, row))}" for row in left.tolist()]
+            head, points_of_file = file.read_text().split("NPOIN=")
+            head = head.replace(f"NELEM= {len(pairs)}", f"NELEM= {len(pairs) + len(left)}") + "\n".join(more)
+            file.write_text(f"{head}\nNPOIN={points_of_file}")
+        else:
+            data = {"medit:ref": [np.zeros(len(pairs), int), np.zeros(len(left), int)]} if kind == "mesh" else None
+            form = {"msh": {"file_format": "gmsh22", "binary": False}, "mesh": {"file_format": "medit"}, "vtu": {}}[kind]
+            meshio.write(file, meshio.Mesh(points, [("quad", pairs), ("triangle", left)], cell_data=data), **form)
+        run("check", "flat.npy", file.name)
+
+
+def quads_of_triangles():
+    """Neighbors in pairs wherever they make a convex quadrilateral, and the triangles that are left."""
+    beside, free, pairs = {}, set(range(len(triangles))), []
+    for i, row in enumerate(triangles.tolist()):
+        for k in range(3):
+            beside[row[k], row[(k + 1) % 3]] = (i, row[(k + 2) % 3])
+    for (a, b), (i, c) in beside.items():
+        if (b, a) not in beside:
+            continue
+        j, d = beside[b, a]
+        corners = [a, d, b, c]
+        p = flat[corners]
+        u, v = np.roll(p, -1, axis=0) - p, np.roll(p, 1, axis=0) - p
+        if i in free and j in free and (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 1e-9).all():
+            free -= {i, j}
+            pairs.append(corners)
+    return np.array(pairs), triangles[sorted(free)]
 
 
 def areas_of(kind):

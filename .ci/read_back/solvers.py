@@ -219,33 +219,84 @@ def grids_and_faces():
     triangles_of("ply")
 
 
+def quads_in(name, kind):
+    """Places of the corners of all triangles and quadrilaterals with regions, and the mesh of meshio if it reads that."""
+    if kind == "2dm":
+        with py2dm.Reader(FOLDER / name) as read:
+            places = {node.id: place(node.pos) for node in read.iter_nodes()}
+            return [([places[i] for i in element.nodes], element.materials[0]) for element in read.iter_elements()], None
+    mesh = by_meshio(name)
+    # Abaqus has sets in the place of numbers.
+    data = {"msh": "gmsh:physical", "mesh": "medit:ref", "bdf": "nastran:ref", "vtu": "region"}.get(kind)
+    blocks = [block.data for block in mesh.cells if block.type in ("triangle", "quad")]
+    if kind == "inp":
+        sets = {number: mesh.cell_sets[name] for number, name in ((1, "steel"), (2, "soft_wood"))}
+        kinds = [block.type for block in mesh.cells]
+        of = [next(n for n, parts in sets.items() if len(parts[k])) for k, kind in enumerate(kinds) if kind != "line"]
+        numbers = [np.full(len(block), n) for block, n in zip(blocks, of, strict=True)]
+    elif kind == "su2":
+        numbers = [np.zeros(len(block)) for block in blocks]
+    else:
+        numbers = [n for b, n in zip(mesh.cells, mesh.cell_data[data], strict=True) if b.type in ("triangle", "quad")]
+    found = [
+        ([place(mesh.points[i]) for i in row], int(n))
+        for block, all_numbers in zip(blocks, numbers, strict=True)
+        for row, n in zip(block, all_numbers, strict=True)
+    ]
+    return found, mesh
+
+
+def area_of(corners):
+    """The area, with less rounding near the corner of the plates."""
+    x, y = np.array(corners).T - np.array([[637000.0], [-849000.0]])
+    return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+
+
+def all_quads_of(kind):
+    """Quadrilaterals alone: convex, as large together as the triangles of each region, with no gaps, and with halves of sides."""
+    cells, lines = wanted("msh")
+    run("mesh", "plates.poly", "--max-area", 0.05, "--all-quads", "-o", f"all.{kind}")
+    found, mesh = quads_in(f"all.{kind}", kind)
+    areas = collections.Counter()
+    for corners, number in found:
+        assert len(corners) == 4, "a triangle"
+        p = np.array(corners)
+        u, v = np.roll(p, -1, axis=0) - p, np.roll(p, 1, axis=0) - p
+        assert (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0).all(), "not convex"
+        areas[0 if kind == "su2" else number] += area_of(corners)
+    before = collections.Counter()
+    for corners, number in cells.items():
+        before[0 if kind == "su2" else number] += abs(area_of(list(corners)))
+    assert areas.keys() == before.keys() and all(abs(areas[n] - before[n]) < 1e-5 for n in areas), "other areas"
+    rounded = [[(round(x, 6), round(y, 6)) for x, y in corners] for corners, _ in found]
+    sides = collections.Counter(frozenset((c[k], c[(k + 1) % 4])) for c in rounded for k in range(4))
+
+    def rough(p):
+        return round(p[0], 6), round(p[1], 6)
+
+    halves = set()
+    for side in lines:
+        middle = rough(np.mean(list(side), axis=0).tolist())
+        halves |= {frozenset((rough(end), middle)) for end in side}
+    border = {side for side, count in sides.items() if count == 1}
+    assert set(sides.values()) == {1, 2} and border <= halves <= sides.keys(), "gaps"
+    if kind in ("msh", "mesh", "vtu"):
+        data = {"msh": "gmsh:physical", "mesh": "medit:ref", "vtu": "marker"}[kind]
+        markers = collections.Counter(all_cells(mesh, "line", 2, data).values())
+        assert markers == {number: 2 * count for number, count in collections.Counter(lines.values()).items()}
+    if kind == "msh" and skfem:
+        read = skfem.MeshQuad.load(FOLDER / "all.msh")
+        assert read.is_valid() and read.nelements == len(found), "scikit-fem sees another mesh"
+    if kind == "vtu":
+        quality = pyvista.read(FOLDER / "all.vtu").extract_cells_by_type(pyvista.CellType.QUAD)
+        assert quality.n_cells == len(found)
+
+
 def quads_of(kind):
     """Quadrilaterals: each is two of the triangles that there are without them. All are there once, and sides stay."""
     cells, lines = wanted("msh")
     run("mesh", "plates.poly", "--max-area", 0.05, "--quads", "-o", f"quads.{kind}")
-    if kind == "2dm":
-        with py2dm.Reader(FOLDER / "quads.2dm") as read:
-            places = {node.id: place(node.pos) for node in read.iter_nodes()}
-            found = [([places[i] for i in element.nodes], element.materials[0]) for element in read.iter_elements()]
-    else:
-        mesh = by_meshio(f"quads.{kind}")
-        # Abaqus has sets in the place of numbers.
-        data = {"msh": "gmsh:physical", "mesh": "medit:ref", "bdf": "nastran:ref", "vtu": "region"}.get(kind)
-        blocks = [block.data for block in mesh.cells if block.type in ("triangle", "quad")]
-        if kind == "inp":
-            sets = {number: mesh.cell_sets[name] for number, name in ((1, "steel"), (2, "soft_wood"))}
-            kinds = [block.type for block in mesh.cells]
-            of = [next(n for n, parts in sets.items() if len(parts[k])) for k, kind in enumerate(kinds) if kind != "line"]
-            numbers = [np.full(len(block), n) for block, n in zip(blocks, of, strict=True)]
-        elif kind == "su2":
-            numbers = [np.zeros(len(block)) for block in blocks]
-        else:
-            numbers = [n for b, n in zip(mesh.cells, mesh.cell_data[data], strict=True) if b.type in ("triangle", "quad")]
-        found = [
-            ([place(mesh.points[i]) for i in row], int(n))
-            for block, all_numbers in zip(blocks, numbers, strict=True)
-            for row, n in zip(block, all_numbers, strict=True)
-        ]
+    found, mesh = quads_in(f"quads.{kind}", kind)
     # 16 characters hold fewer digits than a double.
     exact = {(round(x, 6), round(y, 6)): (x, y) for cell in cells for x, y in cell}
     left = dict(cells)
@@ -284,6 +335,7 @@ def quads_of(kind):
                 ends.add(frozenset((corners[k], corners[(k + 1) % len(corners)])))
             number = {"marker_1": 1, "inlet": 2, "open_sea": 3, "weld": 9}[name]
             assert len(ends) == sum(n == number for n in lines.values()), f"sides of {name}"
+    all_quads_of(kind)
 
 
 def second_order_of(kind):

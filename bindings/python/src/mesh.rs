@@ -7,8 +7,8 @@ mod plan;
 use std::sync::Arc;
 
 use delone::{
-    Ask as _, Constrained2, Crossings, Domains2, EdgeId, Quads2, Reason, Refined2, Shapes2, TriangleId,
-    Triangulation as _, VertexId,
+    AllQuads2, Ask as _, Constrained2, Crossings, Domains2, EdgeId, Quads2, Reason, Refined2, Shapes2,
+    TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -31,6 +31,16 @@ type Table<'py, T> = Bound<'py, PyArray2<T>>;
 
 /// Two tables and a list.
 type Quads<'py> = (Table<'py, i64>, Table<'py, i64>, Bound<'py, PyArray1<i64>>);
+
+/// Points, corners, rows of triangles, the ends of the edge of each middle, the number of the first middle, and what is not convex.
+type AllQuads<'py> = (
+    Table<'py, f64>,
+    Table<'py, i64>,
+    Bound<'py, PyArray1<i64>>,
+    Table<'py, i64>,
+    usize,
+    Bound<'py, PyArray1<i64>>,
+);
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
@@ -237,6 +247,27 @@ impl Mesh {
         let middles = middles.map_err(python_error)?;
         let ends = middles.iter().flat_map(|middle| middle.0).map(|v| v.index() as i64).collect();
         Ok((table(py, 2, ends)?, table(py, 2, middles.into_iter().flat_map(|middle| middle.1).collect())?))
+    }
+
+    /// Quadrilaterals alone, smoothed in rounds.
+    fn all_quads<'py>(&self, py: Python<'py>, rounds: usize) -> PyResult<AllQuads<'py>> {
+        let (all, rows) = self.of(py, move |this| {
+            let mut all = AllQuads2::of(&this.made, &Quads2::of(&this.made, &this.refined));
+            all.smooth(&this.made, &this.refined, rounds);
+            let rows: Vec<i64> = all.triangles.iter().map(|t| this.rows[t.index()]).collect();
+            (all, rows)
+        })?;
+        let corners: Vec<i64> = all.corners.iter().flatten().map(|&i| i as i64).collect();
+        let middles: Vec<i64> = all.middles.iter().flatten().map(|v| v.index() as i64).collect();
+        let left: Vec<i64> = all.left.iter().map(|&row| row as i64).collect();
+        Ok((
+            table(py, 2, all.points.into_flattened())?,
+            table(py, 4, corners)?,
+            PyArray1::from_vec(py, rows),
+            table(py, 2, middles)?,
+            all.first,
+            PyArray1::from_vec(py, left),
+        ))
     }
 
     /// The rows of triangles that are not as they were to be, and why.

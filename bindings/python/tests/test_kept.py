@@ -207,6 +207,35 @@ def test_quadrilaterals():
     assert len(delone.mesh(points, triangles=triangles).quads.corners) == 16
 
 
+def test_quadrilaterals_alone():
+    sides = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]
+    made = delone.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], sides, edge=0.1)
+    for smooth in (0, 5):
+        quads = made.all_quads(smooth=smooth)
+        assert len(quads.corners) == 4 * len(made.quads.corners) + 3 * len(made.quads.triangles)
+        p = quads.points[quads.corners]
+        u, v = np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p
+        assert (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0] > 0).all() and len(quads.left) == 0
+        x, y = p.transpose(2, 0, 1)
+        areas = ((x * np.roll(y, -1, axis=1)) - (y * np.roll(x, -1, axis=1))).sum(axis=1) / 2
+        assert areas.sum() == pytest.approx(2)
+        if smooth == 0:
+            assert (quads.points[: len(made.points)] == made.points).all()
+            whole = np.bincount(quads.triangles, areas, minlength=len(made.triangles))
+            pairs = made.quads.pairs
+            assert whole[pairs].sum(axis=1) == pytest.approx(made.areas[pairs].sum(axis=1))
+        ends = np.sort(np.concatenate([quads.corners[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+        found, counts = np.unique(ends, axis=0, return_counts=True)
+        alone = set(map(frozenset, found[counts == 1].tolist()))
+        halves = list(map(frozenset, quads.segments.tolist()))
+        border = {half for half, origin in zip(halves, quads.segment_origin.tolist(), strict=True) if origin < 4}
+        assert alone == border and set(halves) <= set(map(frozenset, found.tolist()))
+        middles = quads.points[quads.segments[0::2, 1]]
+        assert (middles == quads.points[made.segments].mean(axis=1)).all()
+    with pytest.raises(OverflowError):
+        made.all_quads(smooth=-1)
+
+
 def test_lengths_of_edges_make_all_anew():
     points, triangles = grid(2)
     made = delone.mesh(points / 2, triangles=triangles, edge=0.1, min_angle=30)

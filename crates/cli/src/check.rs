@@ -37,6 +37,9 @@ pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure>
         (room::read::<R>(&args.input, quiet)?.0, None)
     };
     let simplices = files::simplices(&args.mesh, quiet, R::read_simplices)?;
+    if !R::is_space() {
+        files::tell_quads(&args.mesh, quiet)?;
+    }
     stats.phase("read");
     let verdict = {
         let _phase = Phase::start(quiet, "checking");
@@ -54,6 +57,7 @@ fn with_segments(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let graph = files::graph(&args.input, args.segments.as_deref(), quiet)?;
     let triangles = files::simplices(&args.mesh, quiet, Delaunay2::read_simplices)?;
+    files::tell_quads(&args.mesh, quiet)?;
     stats.phase("read");
     let (points, segments) = (&graph.cloud.xy, &graph.segments);
     let verdict = {

@@ -209,9 +209,26 @@ fn read_chunks_with(
     Ok(rest)
 }
 
-/// Reads the triangles of a mesh file as indices into its points, from 0.
+/// Reads the triangles of a mesh file as indices into its points, from 0. In files of Gmsh, Medit, SU2 and VTK a quadrilateral is two of them: see
+/// [`count_quads`].
+///
+/// # Errors
+/// What is wrong with the file; a quadrilateral that crosses itself or is flat.
 pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
     format.readers().triangles.ok_or_else(|| format.without(Contents::Triangles, Direction::Read))?(source)
+}
+
+/// How many quadrilaterals [`read_triangles`] gives as two triangles each, by a diagonal inside: of two such, by that of a Delaunay
+/// triangulation of the four corners.
+pub fn count_quads(source: Box<dyn Source>, format: Format) -> Result<usize, Error> {
+    match format {
+        Format::Msh => formats::msh::count_quads(source),
+        Format::Medit => Ok(formats::medit::read(source)?.quads.len()),
+        Format::Su2 => Ok(formats::su2::read(source)?.quads.len()),
+        Format::Vtu | Format::Vtp => formats::vtk::count_quads(source, false),
+        Format::Vtk => formats::vtk::count_quads(source, true),
+        _ => Ok(0),
+    }
 }
 
 /// Reads the tetrahedra of a mesh file as indices into its points, from 0.
@@ -283,7 +300,7 @@ pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Resu
     match format {
         Format::Ele => Ok(formats::triangle::read_ele::<3>(source, true)?.1),
         Format::Msh => formats::msh::read_groups(source),
-        Format::Medit => Ok(formats::medit::read(source)?.regions()),
+        Format::Medit => formats::medit::read(source)?.regions(formats::medit::NAME),
         _ => Ok(Attributes::default()),
     }
 }

@@ -441,7 +441,7 @@ fn files_of_gmsh_are_read() {
         (changed("20 1 0 0.5", "30 1 0 0.5"), "node 30 is there twice"),
         (changed("5 1 10 20 30", "5 1 10 21 30"), "line 19: there is no node 21"),
         (changed("5 1 10 20 30", "5 1 10 20"), "line 19: a corner is missing"),
-        (changed("4 2 0 10 30 25", "4 3 0 10 20 30 25"), "line 20: elements of kind 3 are no triangles"),
+        (changed("4 2 0 10 30 25", "5 5 0 10 20 30 25"), "line 20: elements of kind 5 are no triangles"),
         (changed("$Elements\n5", "$Elements\n6"), "line 22: the kind of the element is missing"),
         (OLD[..OLD.len() - 35].to_owned(), "the file ends after 4 of 5 elements"),
         (

@@ -4,8 +4,8 @@ use crate::scene::{source, written};
 use delone::Delaunay3;
 use delone_generators::Kind3;
 use delone_io::{
-    Format, Mesh, ReadOptions, read_graph, read_points, read_tetrahedra, read_triangle_attributes,
-    read_triangles,
+    Format, Mesh, ReadOptions, count_quads, read_graph, read_points, read_tetrahedra,
+    read_triangle_attributes, read_triangles,
 };
 
 #[test]
@@ -52,7 +52,8 @@ fn names_are_tags_of_su2() {
     for (from, to, message) in [
         ("NDIME= 2", "NDIME= 4", "line 2: NDIME is 2 or 3"),
         ("NDIME= 2\n", "", "NDIME is said after the points"),
-        ("5 0 1 2 0", "9 0 1 2 0", "line 4: elements of kind 9"),
+        ("5 0 1 2 0", "12 0 1 2 0", "line 4: elements of kind 12"),
+        ("5 0 1 2 0", "9 0 1 2 0", "points 0, 1, 2 and 0, counted from 0, crosses itself or is flat"),
         ("5 0 1 2 0", "5 0 1", "line 4: a corner is missing"),
         ("5 0 1 2 0", "5 0 1 3 0", "has corner 3 from 0, but there are 3 points"),
         ("NMARK= 3", "what is this", "where a part begins"),
@@ -88,7 +89,12 @@ fn broken_files_of_medit_are_named() {
         ("1 2 3 4", "1 2 4 4", "line 18: there is no vertex 4"),
         ("1 2 3 4", "1 0 2 4", "line 18: there is no vertex 0"),
         ("1 2 3 4\nEnd\nanything\n", "1 2", "the file ends where a corner is expected"),
-        ("Corners", "Quadrilaterals", "line 10: \"Quadrilaterals\" is no list that is read"),
+        ("Corners", "Hexahedra", "line 10: \"Hexahedra\" is no list that is read"),
+        (
+            "Triangles\n1\n1 2 3 4",
+            "Quadrilaterals\n1\n1 2 3 3 9",
+            "points 0, 1, 2 and 2, counted from 0, crosses itself",
+        ),
         (
             "Vertices\n3\n0 0 1 7\n4 0 2 7\n0 3 3.5 7\nCorners\n1\n2\nEdges\n1\n1 2 5\nTriangles\n1\n1 2 3 4\n",
             "",
@@ -99,4 +105,22 @@ fn broken_files_of_medit_are_named() {
         let error = read_triangles(source(text.as_bytes()), Format::Medit).expect_err(message).to_string();
         assert!(error.contains(message), "{error}, not {message}");
     }
+}
+
+#[test]
+fn quadrilaterals_of_gmsh_are_read_by_their_corners() {
+    // Of first and second order, among triangles, and passed over where tetrahedra are wanted.
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 2 0 0\n3 2 1 0\n4 0 1 0\n5 0.5 2 0\n7 0.25 0.5 0\n$EndNodes\n\
+        $Elements\n4\n1 2 2 5 1 3 4 5\n2 3 2 6 1 1 2 3 4\n3 16 2 7 1 1 2 3 7 1 2 3 4\n4 1 2 8 1 1 2\n$EndElements\n";
+    let triangles = read_triangles(source(text.as_bytes()), Format::Msh).expect("triangles");
+    // The last one has a corner that turns to the other side.
+    assert_eq!(triangles[0], [2, 3, 4]);
+    assert_eq!(triangles[3..], [[1, 2, 5], [5, 0, 1]]);
+    assert!(triangles[1..3].iter().all(|row| row.iter().all(|&corner| corner < 4)));
+    assert_eq!(
+        read_triangle_attributes(source(text.as_bytes()), Format::Msh).expect("groups").values,
+        [5.0, 6.0, 6.0, 7.0, 7.0]
+    );
+    assert_eq!(count_quads(source(text.as_bytes()), Format::Msh).expect("a count"), 2);
+    assert_eq!(read_tetrahedra(source(text.as_bytes()), Format::Msh).expect("none").len(), 0);
 }

@@ -46,6 +46,7 @@ mod length;
 mod lexicographic;
 mod line;
 mod lune;
+mod mean;
 mod orient;
 mod orient3d;
 mod orthosphere;
@@ -79,6 +80,7 @@ pub use length::{Length, compare_lengths};
 pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
 pub use line::{Line, Spot, circumcenter, power_center};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
+pub use mean::mean;
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d, orient3d_moved};
 pub use orthosphere::{

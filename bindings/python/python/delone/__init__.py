@@ -43,7 +43,7 @@ from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
 from ._layers import Layers
-from ._mesh import LayerReport, Mesh, MeshQuads, MeshReport, MeshShapes
+from ._mesh import LayerReport, Mesh, MeshAllQuads, MeshQuads, MeshReport, MeshShapes
 from ._meshing import mesh
 from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
@@ -73,6 +73,7 @@ __all__ = [
     "LinearInterpolator",
     "LinearNDInterpolator",
     "Mesh",
+    "MeshAllQuads",
     "MeshQuads",
     "MeshReport",
     "MeshShapes",

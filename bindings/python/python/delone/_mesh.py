@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar
@@ -55,6 +56,23 @@ class MeshQuads(NamedTuple):
     pairs: NDArray[np.int64]
     #: The rows of the triangles that stay: (r,).
     triangles: NDArray[np.int64]
+
+
+class MeshAllQuads(NamedTuple):
+    """A mesh of quadrilaterals alone."""
+
+    #: Points: those of the mesh, which smoothing may have moved, then middles of edges, then centers: (m, 2).
+    points: NDArray[np.float64]
+    #: The corners of each quadrilateral as indices of these, counter-clockwise, the first one a point of the mesh: (q, 4).
+    corners: NDArray[np.int64]
+    #: The row of a triangle of the mesh that each is a part of, for its region: (q,).
+    triangles: NDArray[np.int64]
+    #: The halves of the segments of the mesh, in their directions: (2 s, 2).
+    segments: NDArray[np.int64]
+    #: The segment given that each is on, or -1: boundary markers, (2 s,).
+    segment_origin: NDArray[np.int64]
+    #: Rows of those that are not convex because coordinates are rounded: none but between the closest of numbers.
+    left: NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -326,6 +344,32 @@ class Mesh:
         (4, True)
         """
         return self._once("quads", lambda: MeshQuads(*self._core.quads()))
+
+    def all_quads(self, smooth: int = 5) -> MeshAllQuads:
+        """Quadrilaterals alone: each of `quads` becomes four and each triangle three, about its center; so edges are about half
+        as long. New points inside move to where quadrilaterals are better, in rounds; those of the input, on segments and in
+        boundary layers stay. All are convex, which is decided exactly, but those in `left`.
+
+        Parameters
+        ----------
+        smooth
+            Rounds of smoothing.
+
+        Examples
+        --------
+        >>> import delone
+        >>> made = delone.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], edge=0.1)
+        >>> quads = made.all_quads()
+        >>> len(quads.corners) == 4 * len(made.quads.corners) + 3 * len(made.quads.triangles), len(quads.left)
+        (True, 0)
+        """
+        points, corners, triangles, middles, first, left = self._core.all_quads(operator.index(smooth))
+        # Middles are sorted by the ends of their edges, so they are found by one number for both.
+        ends = np.sort(self.segments, axis=1)
+        keys = middles[:, 0] * first + middles[:, 1]
+        at = first + np.searchsorted(keys, ends[:, 0] * first + ends[:, 1])
+        halves = np.stack([self.segments[:, 0], at, at, self.segments[:, 1]], axis=1).reshape(-1, 2)
+        return MeshAllQuads(points, corners, triangles, halves, np.repeat(self.segment_origin, 2), left)
 
     @property
     def second_order(self) -> SecondOrder:

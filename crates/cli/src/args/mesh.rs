@@ -98,7 +98,7 @@ pub(crate) struct MeshArgs {
     /// File of the largest area within each triangle of --refine (area).
     #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]
     pub(crate) areas: Option<PathBuf>,
-    /// Rounds of smoothing: new vertices inside move to where angles are larger [default: 0].
+    /// Rounds of smoothing: new vertices inside move to where angles are larger [default: 0; 5 for the quadrilaterals of --all-quads].
     #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
     pub(crate) smooth: Option<usize>,
     #[command(flatten)]
@@ -117,6 +117,9 @@ pub(crate) struct MeshArgs {
     /// Quadrilaterals where two triangles make one with angles from 30 to 150 degrees, and triangles elsewhere.
     #[arg(long, conflicts_with = "second_order")]
     pub(crate) quads: bool,
+    /// Quadrilaterals alone: each of --quads becomes four and each triangle three, so edges are about half as long as asked for.
+    #[arg(long, conflicts_with_all = ["second_order", "quads"])]
+    pub(crate) all_quads: bool,
     /// The type of elements in .inp files, such as CPS6 for plane stress [default: CPS3; CPE6 with --second-order, which is plane strain, because
     /// more programs know it].
     #[arg(long, value_name = "TYPE", value_parser = element)]

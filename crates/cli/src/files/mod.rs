@@ -29,7 +29,7 @@ pub use write::{write, write_own};
 
 use crate::args::InputArgs;
 use crate::limits;
-use crate::message::{Failure, lost, note};
+use crate::message::{Failure, grouped, lost, note};
 use crate::progress::Phase;
 
 /// The title of the progress bar while a file is read.
@@ -441,6 +441,16 @@ pub fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
         let at = error.utf8_error().valid_up_to();
         Failure::new(format!("{}: byte {at} is not text", path.display()), "give a text file")
     })
+}
+
+/// Tells how many quadrilaterals of a mesh are read as two triangles each.
+pub fn tell_quads(path: &Path, quiet: bool) -> Result<(), Failure> {
+    let count = simplices(path, quiet, delone_io::count_quads)?;
+    if count > 0 {
+        let (path, count) = (path.display(), grouped(count as u64));
+        note(quiet, format_args!("{path}: {count} quadrilaterals are read as two triangles each"));
+    }
+    Ok(())
 }
 
 /// Reads the simplices of a mesh, or what else is said of them.

@@ -6,8 +6,10 @@ mod layers;
 mod markers;
 mod names;
 mod naming;
+mod parts;
 mod plan;
 mod proof;
+mod quads;
 mod seeds;
 mod source;
 mod tell;
@@ -15,8 +17,8 @@ mod tell;
 use std::path::Path;
 
 use delone::{
-    Constrained2, Error, Fill, Location2, Middle2, Quads2, Refined2, Seeds2, SegmentId, Shapes2,
-    Triangulation, VertexId,
+    Constrained2, Error, Fill, Location2, Middle2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
+    VertexId,
 };
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
@@ -36,6 +38,7 @@ use kept::Kept;
 use names::{Content, Target};
 use naming::Naming;
 use plan::{Plan, Written};
+use quads::Cells;
 use source::{Again, Material, Sources};
 
 pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
@@ -54,7 +57,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
         ));
     }
     let is_drawn = |content: &Content| matches!(content, Content::Mesh(Format::Png | Format::Svg));
-    if plan.traits.quads && targets.iter().any(|target| is_drawn(&target.1)) {
+    if plan.traits.quads.are_wanted() && targets.iter().any(|target| is_drawn(&target.1)) {
         note(quiet, "pictures show the triangles of quadrilaterals");
     }
     let by_triangle = args.triangle.as_ref().filter(|_| args.output.is_empty());
@@ -93,6 +96,8 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(left) = tell::left(report).filter(|_| is_strict()) {
         return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
     }
+    let cells = Cells::of(&made, plan.traits.quads, plan.smooth_quads)?;
+    cells.tell_left(quiet);
     if report.triangles == 0 && c.triangle_count() > 0 {
         let why = if made.graph.holes.is_empty() {
             "no segments close"
@@ -107,11 +112,12 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     if args.input.stats.is_some() || plan.edge.is_some() {
         tell::shapes(&Shapes2::of(c, &made.refined.domains), &mut stats);
     }
+    cells.count(c, &mut stats);
     stats.set("hull", c.hull_facets().count());
     stats.set("vertices", kept.vertex_count());
     let angles = args.color == Some(ColorName::Angle);
     let options = picture::Options { angles, size: args.picture_size, ..picture::Options::default() };
-    made.write(&kept, &plan, &targets, &options, &label, quiet)?;
+    made.write((&kept, &cells), &plan, (&targets, &options), &label, quiet)?;
     stats.phase("write");
     tell::summary(report, &stats, quiet);
     if plan.traits.histogram {
@@ -203,10 +209,9 @@ impl Made {
     /// Writes all files.
     fn write(
         &self,
-        kept: &Kept,
+        (kept, cells): (&Kept, &Cells),
         plan: &Plan,
-        targets: &[Target],
-        options: &picture::Options,
+        (targets, options): (&[Target], &picture::Options),
         label: &Path,
         quiet: bool,
     ) -> Result<(), Failure> {
@@ -247,7 +252,7 @@ impl Made {
         let mut rows = vec![None; c.slot_count()];
         c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
-        let partners = plan.traits.quads.then(|| self.partners());
+        let partners = cells.partners(c);
         let middles = if plan.traits.second_order { self.middles(kept, label)? } else { Vec::new() };
         let mesh = Mesh {
             heights: heights.as_deref(),
@@ -269,22 +274,10 @@ impl Made {
         self.naming.check(&mesh.side_markers(), &mesh.region_numbers(), quiet);
         self.naming.tell(targets, quiet);
         let _phase = Phase::start(quiet, "writing");
-        for (path, content) in targets {
-            files::write_mesh(path, quiet, |out| match content {
-                // Its faces have corners alone.
-                Content::Mesh(format @ Format::Off) => {
-                    write_mesh(out, *format, &Mesh { second_order: false, ..mesh }, options)
-                }
-                // Pictures show triangles.
-                Content::Mesh(format @ (Format::Png | Format::Svg)) => {
-                    write_mesh(out, *format, &Mesh { partners: None, ..mesh }, options)
-                }
-                Content::Mesh(format) => write_mesh(out, *format, &mesh, options),
-                Content::VoronoiNode => write_voronoi_node(out, &mesh).map(|()| None),
-                Content::VoronoiEdge => write_voronoi_edge(out, &mesh).map(|()| None),
-            })?;
+        match cells {
+            Cells::Parts(quads) => quads::write_parts((self, quads), &mesh, targets, options, quiet),
+            _ => write_all(&mesh, targets, options, quiet),
         }
-        Ok(())
     }
 
     /// Nodes in the middles of arcs.
@@ -293,16 +286,6 @@ impl Made {
         let found = found.map_err(|error| refused(label, &error))?;
         let named = |([v, w], middle): Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
         Ok(found.into_iter().filter_map(named).collect())
-    }
-
-    /// For each triangle by index the one that it makes a quadrilateral with.
-    fn partners(&self) -> Vec<Option<usize>> {
-        let mut partners = vec![None; self.triangulation.slot_count()];
-        for [one, other] in Quads2::of(&self.triangulation, &self.refined).pairs {
-            partners[one.index()] = Some(other.index());
-            partners[other.index()] = Some(one.index());
-        }
-        partners
     }
 
     /// The region of each triangle, if regions are written.
@@ -327,6 +310,31 @@ impl Made {
             regions
         })
     }
+}
+
+/// Writes all files.
+fn write_all<T: Triangulation<Point = [f64; 2]>>(
+    mesh: &Mesh<T>,
+    targets: &[Target],
+    options: &picture::Options,
+    quiet: bool,
+) -> Result<(), Failure> {
+    for (path, content) in targets {
+        files::write_mesh(path, quiet, |out| match content {
+            // Its faces have corners alone.
+            Content::Mesh(format @ Format::Off) => {
+                write_mesh(out, *format, &Mesh { second_order: false, ..*mesh }, options)
+            }
+            // Pictures show triangles.
+            Content::Mesh(format @ (Format::Png | Format::Svg)) => {
+                write_mesh(out, *format, &Mesh { partners: None, ..*mesh }, options)
+            }
+            Content::Mesh(format) => write_mesh(out, *format, mesh, options),
+            Content::VoronoiNode => write_voronoi_node(out, mesh).map(|()| None),
+            Content::VoronoiEdge => write_voronoi_edge(out, mesh).map(|()| None),
+        })?;
+    }
+    Ok(())
 }
 
 /// The failure of a refusal by the library.

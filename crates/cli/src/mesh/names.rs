@@ -29,7 +29,7 @@ pub(super) fn named(args: &MeshArgs, plan: &Plan, inputs: &[&Path]) -> Result<Ve
         let is_picture = matches!(format, Format::Png | Format::Svg);
         let check = if plan.traits.second_order {
             <[f64; 2]>::check_second_order(format)
-        } else if plan.traits.quads && !is_picture {
+        } else if plan.traits.quads.are_wanted() && !is_picture {
             <[f64; 2]>::check_quads(format)
         } else {
             format.check(Contents::Triangles, Direction::Written)

@@ -2,6 +2,7 @@
 
 use delone::{Constrained2, Keep, Layers2, Refinement};
 
+use super::quads::Wanted;
 use crate::args::{CrossingsName, KeepName, LayerArgs, MeshArgs, Switches};
 use crate::message::{Failure, note};
 
@@ -27,8 +28,9 @@ pub(super) struct Plan {
     pub(super) keep: Keep,
     /// Boundary layers, on which segments ever.
     pub(super) layers: Option<Layers2>,
-    /// Rounds of smoothing.
+    /// Rounds of smoothing, and those of quadrilaterals.
     pub(super) smooth: usize,
+    pub(super) smooth_quads: usize,
     /// The treatment of segments that cross.
     pub(super) crossings: CrossingsName,
     /// Whether the regions of triangles are written.
@@ -52,7 +54,7 @@ pub(super) struct Traits {
     pub(super) convex: bool,
     pub(super) ignore_holes: bool,
     pub(super) second_order: bool,
-    pub(super) quads: bool,
+    pub(super) quads: Wanted,
     pub(super) drop_unused: bool,
     pub(super) check: bool,
     pub(super) histogram: bool,
@@ -87,6 +89,7 @@ impl Plan {
             },
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
+            smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
             regions: Written::AsGiven,
             markers: Written::AsGiven,
@@ -98,7 +101,7 @@ impl Plan {
                 convex: args.convex,
                 ignore_holes: args.ignore_holes,
                 second_order: args.second_order,
-                quads: args.quads,
+                quads: quads(args),
                 drop_unused: args.drop_unused,
                 check: args.check,
                 histogram: args.histogram,
@@ -136,6 +139,7 @@ impl Plan {
             },
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
+            smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Split),
             regions: match (switches.has('A'), switches.has('r')) {
                 (true, _) => Written::Always,
@@ -151,7 +155,7 @@ impl Plan {
                 convex: switches.has('c'),
                 ignore_holes: switches.has('O'),
                 second_order: switches.has('o'),
-                quads: args.quads,
+                quads: quads(args),
                 drop_unused: switches.has('j'),
                 check: args.check || switches.has('C'),
                 histogram: args.histogram || switches.has('V'),
@@ -185,6 +189,18 @@ impl Plan {
             wanted = wanted.layers(layers);
         }
         wanted
+    }
+}
+
+/// Rounds of smoothing for quadrilaterals, if nothing is said: more change little.
+const ROUNDS_FOR_QUADS: usize = 5;
+
+/// Which cells are to have four corners.
+fn quads(args: &MeshArgs) -> Wanted {
+    match (args.all_quads, args.quads) {
+        (true, _) => Wanted::All,
+        (false, true) => Wanted::Pairs,
+        (false, false) => Wanted::Nothing,
     }
 }
 

@@ -145,6 +145,7 @@ impl Sources {
     /// between triangles of other attributes, so that no new triangle has a part of both.
     fn again(&self, path: &Path, graph: &mut Graph, quiet: bool) -> Result<Again, Failure> {
         let rows = files::simplices(path, quiet, delone_io::read_triangles)?;
+        files::tell_quads(path, quiet)?;
         let attributes = files::simplices(path, quiet, delone_io::read_triangle_attributes)?;
         let count = graph.cloud.xy.len();
         let corner = |(row, &corner): (usize, &u64)| {

@@ -87,13 +87,29 @@ pub(super) fn summary(report: &RefinementReport2, stats: &Stats, quiet: bool) {
         Some(mean) if mean > 0.0 => format!(", mean quality {mean:.3}"),
         _ => String::new(),
     };
+    let quads = quads(&stats.get("quads"));
     let seconds = stats.total();
     say(
         quiet,
         format_args!(
-            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles{angles}{quality} ({seconds:.2} s)"
+            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles{angles}{quality}{quads} ({seconds:.2} s)"
         ),
     );
+}
+
+/// The part of the line about quadrilaterals, if there are some.
+fn quads(counts: &Value) -> String {
+    let number = |name: &str| counts[name].as_u64();
+    let [Some(quads), Some(left), Some(points)] = ["count", "triangles", "points"].map(number) else {
+        return String::new();
+    };
+    let new = if points > 0 { format!(" ({} more points)", grouped(points)) } else { String::new() };
+    let rest = if points > 0 { String::new() } else { format!(" and {} triangles", grouped(left)) };
+    let angles = match ["smallest_angle", "largest_angle"].map(|name| counts[name].as_f64()) {
+        [Some(low), Some(high)] if quads > 0 => format!(" of {low:.2} to {high:.2} degrees"),
+        _ => String::new(),
+    };
+    format!("; {} quadrilaterals{angles}{rest}{new}", grouped(quads))
 }
 
 /// How many angles there are of each size, as bars.

@@ -265,6 +265,22 @@ impl<'a> Given<'a> {
         shapes
     }
 
+    /// The triangles and quadrilaterals of a mesh of SMS.
+    pub(super) fn sms(&self, name: &str) -> Vec<Shape> {
+        let text = self.place.read(name);
+        let numbers = |card: &str| {
+            let row = |line: &str| -> Vec<f64> {
+                line.split(' ').skip(2).map(|word| word.parse().expect("a number")).collect()
+            };
+            text.lines().filter(|line| line.starts_with(card)).map(row).collect::<Vec<_>>()
+        };
+        let points: Vec<Point> = numbers("ND ").iter().map(|p| self.back([p[0], p[1], p[2]])).collect();
+        let cells = [numbers("E3T "), numbers("E4Q ")].concat();
+        let corners = |row: &[f64]| row.iter().map(|&i| points[i as usize - 1]).collect();
+        // The last number is that of the material.
+        cells.iter().map(|row| self.cycle(corners(&row[..row.len() - 1]))).collect()
+    }
+
     /// The rows of a table of numbers, below a header if there is one.
     pub(super) fn table(&self, name: &str) -> Vec<Vec<f64>> {
         let text = self.place.read(name);

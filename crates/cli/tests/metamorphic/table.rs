@@ -80,6 +80,17 @@ fn mesh(g: &Given, options: &str) -> Vec<Shape> {
     shapes
 }
 
+/// A mesh of quadrilaterals over segments.
+fn quads(g: &Given, options: &str) -> Vec<Shape> {
+    g.segments("s.csv", 5);
+    let common = "--segments s.csv --crossings split --fill all --max-vertices 2000 -o m.2dm --stats s.json";
+    g.run(&format!("mesh p.csv --min-angle 25 {options} {common}"));
+    let mut shapes = g.sms("m.2dm");
+    let angle = |name: &str| g.json("s.json")["quads"][name].as_f64().expect("an angle");
+    shapes.push(vec![angle("smallest_angle").round(), angle("largest_angle").round()]);
+    shapes
+}
+
 /// Contour lines, or areas between heights, after their heights.
 fn lines(g: &Given, name: &str) -> Vec<Shape> {
     let shape = |(about, lines): (serde_json::Value, Vec<Vec<Point>>)| {
@@ -201,6 +212,8 @@ pub(super) const PLANE: &[Row] = &[
     ("mesh --layer-height", |g| {
         mesh(g, &format!("--max-edge {} --layer-height {}", g.part(0.125, 1), g.part(0.015_625, 1)))
     }),
+    ("mesh --quads", |g| quads(g, "--quads")),
+    ("mesh --all-quads", |g| quads(g, "--all-quads")),
     ("mesh --conforming", |g| mesh(g, "--conforming --min-angle 20")),
     ("mesh --size", |g| {
         g.sizes("size.csv");

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Crossings, Delaunay2, Error, Fill, Quads2, Refinement, SegmentId, VertexId};
+use delone::{
+    AllQuads2, Constrained2, Crossings, Delaunay2, Error, Fill, Quads2, Refinement, SegmentId, VertexId,
+};
 
 use super::{Outcome, Set, order};
 
@@ -82,7 +84,7 @@ pub(super) fn kept(set: &Set<2>, how: Refinement<'_>) -> Outcome<2> {
     outcome
 }
 
-/// A mesh, made coarser, in quadrilaterals and the triangles that are left.
+/// A mesh, made coarser, in quadrilaterals and the triangles that are left, and in quadrilaterals alone.
 pub(super) fn coarse(set: &Set<2>) -> Outcome<2> {
     let mut c = Constrained2::from_parts(&set.points, &[]).expect("finite");
     let fine = Refinement::new().max_area(set.unit * set.unit / 512.0).max_vertices(3000);
@@ -92,5 +94,9 @@ pub(super) fn coarse(set: &Set<2>) -> Outcome<2> {
     quads.corners.iter().for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
     let corners = quads.triangles.iter().map(|&t| c.mesh().corners(t));
     corners.for_each(|corners| outcome.set(corners.map(|v| c.point(v)).to_vec()));
+    let mut all = AllQuads2::of(&c, &quads);
+    (0..all.corners.len()).for_each(|row| outcome.set(all.places(row).to_vec()));
+    all.smooth(&c, &coarse, 2);
+    outcome.measure(&[], all.angles().map_or(0.0, |angles| angles[0].round()), 0);
     outcome
 }

@@ -1,8 +1,8 @@
 //! Triangles in pairs: convex quadrilaterals that cover what they covered, whatever the order of the input.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use delone::{Constrained2, Fill, Quads2, Refined2, Refinement, TriangleId, VertexId};
+use delone::{AllQuads2, Constrained2, Fill, Quads2, Refined2, Refinement, TriangleId, VertexId};
 use delone_generators::Random;
 use delone_oracle::exact;
 
@@ -22,14 +22,80 @@ fn judge(c: &Constrained2, refined: &Refined2, quads: &Quads2, name: &str) {
         let [a, _, b, _] = corners;
         assert!(!walls.contains(&[*a.min(b), *a.max(b)]), "{name}: a constraint is a diagonal");
         let p = corners.map(|v| c.point(v));
+        assert!(is_convex(p), "{name}");
         for k in 0..4 {
             let [before, at, after] = [p[(k + 3) % 4], p[k], p[(k + 1) % 4]];
-            assert!(exact::orient2d(before, at, after) > 0, "{name}");
             let angle = |q: [f64; 2]| (q[1] - at[1]).atan2(q[0] - at[0]);
             let degrees = (angle(before) - angle(after)).to_degrees().rem_euclid(360.0);
             assert!((29.999..150.001).contains(&degrees), "{name}: {degrees}");
         }
     }
+}
+
+fn is_convex(p: [[f64; 2]; 4]) -> bool {
+    (0..4).all(|k| exact::orient2d(p[(k + 3) % 4], p[k], p[(k + 1) % 4]) > 0)
+}
+
+/// Parts of cells fit to each other, their outer sides are halves of edges, and exactly those that are told are not convex.
+fn judge_all(c: &Constrained2, quads: &Quads2, all: &AllQuads2, name: &str) {
+    assert_eq!(all.corners.len(), 4 * quads.corners.len() + 3 * quads.triangles.len(), "{name}");
+    let mut sides: BTreeMap<[usize; 2], i32> = BTreeMap::new();
+    for (row, corners) in all.corners.iter().enumerate() {
+        assert_eq!(is_convex(all.places(row)), all.left.binary_search(&row).is_err(), "{name}");
+        for k in 0..4 {
+            let [from, to] = [corners[k], corners[(k + 1) % 4]];
+            let count = sides.entry([from.min(to), from.max(to)]).or_default();
+            // A side is once there each way.
+            assert!(*count != if from < to { 1 } else { 2 } && *count < 3, "{name}");
+            *count += if from < to { 1 } else { 2 };
+        }
+    }
+    let of_cells = |t: &TriangleId| [0, 1, 2].map(|k| t.edge(k));
+    let edges = quads.pairs.iter().flatten().chain(&quads.triangles).flat_map(of_cells);
+    let cells: BTreeSet<TriangleId> = quads.pairs.iter().flatten().chain(&quads.triangles).copied().collect();
+    let mut border = BTreeSet::new();
+    for e in edges.filter(|&e| !cells.contains(&c.mesh().twin(e).triangle())) {
+        let [v, w] = [c.mesh().origin(e), c.mesh().destination(e)];
+        let middle = all.first + all.middles.binary_search(&[v.min(w), v.max(w)]).expect("a middle");
+        border.extend([v, w].map(|v| [v.index(), middle]));
+        let [p, q, m] = [c.point(v), c.point(w), all.points[middle]];
+        assert_eq!(m, [0, 1].map(|k| p[k].midpoint(q[k]) + 0.0), "{name}");
+    }
+    let alone: BTreeSet<[usize; 2]> = sides.iter().filter(|side| *side.1 < 3).map(|side| *side.0).collect();
+    assert_eq!(alone, border, "{name}");
+}
+
+#[test]
+fn all_cells_become_quadrilaterals() {
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    for scale in [1.0, 2f64.powi(-300), 2f64.powi(300)] {
+        let points = square.map(|p| p.map(|x| x * scale));
+        let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
+        let refined = Refinement::new().edge(0.1 * scale).min_angle(30.0).run(&mut c).expect("it ends");
+        let quads = Quads2::of(&c, &refined);
+        let all = AllQuads2::of(&c, &quads);
+        judge_all(&c, &quads, &all, "square");
+        let [low, high] = all.angles().expect("some");
+        assert!(all.left.is_empty() && low > 25.0 && high < 165.0, "{low} {high}");
+        let mut smooth = all.clone();
+        smooth.smooth(&c, &refined, 4);
+        judge_all(&c, &quads, &smooth, "smoothed");
+        let [lower, higher] = smooth.angles().expect("some");
+        assert!(lower > low + 4.0 && higher <= high, "{low} {high} {lower} {higher}");
+        // The vertices given and the border stay; all moves are within the square, so the area is as it was.
+        assert_eq!(smooth.points[..4], all.points[..4]);
+        assert!(smooth.points.iter().all(|&[x, y]| x >= 0.0 && y >= 0.0 && x <= 2.0 * scale && y <= scale));
+    }
+    // Between neighbors among the numbers no middle fits.
+    let next = 1.0 + f64::EPSILON;
+    let mut c = Constrained2::from_parts(&[[1.0, 1.0], [next, 1.0], [1.0, next]], &[]).expect("finite");
+    let refined = Refinement::new().min_angle(0.0).run(&mut c).expect("it ends");
+    let quads = Quads2::of(&c, &refined);
+    let all = AllQuads2::of(&c, &quads);
+    judge_all(&c, &quads, &all, "tiny");
+    assert_eq!(all.left, [0, 1, 2]);
+    let none = AllQuads2::of(&Constrained2::new(), &Quads2::default());
+    assert_eq!((none.corners.len(), none.angles()), (0, None));
 }
 
 #[test]
@@ -71,7 +137,14 @@ fn constraints_are_no_diagonals() {
         let Ok(mut c) = built else { continue };
         let wanted = Refinement::new().min_angle(20.0).max_vertices(300).fill(Fill::EvenOdd);
         let refined = wanted.run(&mut c).expect("it ends");
-        judge(&c, &refined, &Quads2::of(&c, &refined), name);
+        let quads = Quads2::of(&c, &refined);
+        judge(&c, &refined, &quads, name);
+        let mut all = AllQuads2::of(&c, &quads);
+        judge_all(&c, &quads, &all, name);
+        let count = all.left.len();
+        all.smooth(&c, &refined, 2);
+        judge_all(&c, &quads, &all, name);
+        assert!(all.left.len() <= count, "{name}");
     }
 }
 

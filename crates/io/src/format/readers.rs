@@ -29,7 +29,7 @@ pub(super) const OF_MEDIT: Readers = Readers {
     points: Some(|source, _| Ok(medit::read(source)?.cloud())),
     lines: Some(|source, _, _| Ok(medit::read(source)?.graph())),
     has_lines: Some(|source| medit::read(source).is_ok_and(|mesh| !mesh.lines.is_empty())),
-    triangles: Some(|source| Ok(corners(medit::read(source)?.triangles))),
+    triangles: Some(|source| Ok(corners(medit::read(source)?.triangles(medit::NAME)?))),
     tetrahedra: Some(|source| Ok(corners(medit::read(source)?.tetrahedra))),
     ..Readers::NONE
 };
@@ -39,7 +39,7 @@ pub(super) const OF_SU2: Readers = Readers {
     points: Some(|source, _| Ok(su2::read(source)?.cloud())),
     lines: Some(|source, _, _| Ok(su2::read(source)?.graph())),
     has_lines: Some(|source| su2::read(source).is_ok_and(|mesh| !mesh.lines.is_empty())),
-    triangles: Some(|source| Ok(corners(su2::read(source)?.triangles))),
+    triangles: Some(|source| Ok(corners(su2::read(source)?.triangles(su2::NAME)?))),
     tetrahedra: Some(|source| Ok(corners(su2::read(source)?.tetrahedra))),
     ..Readers::NONE
 };

@@ -1,5 +1,6 @@
-//! Meshes that list points, and lines, triangles and tetrahedra with a number each: what readers of such formats find.
+//! Meshes that list points, and lines, triangles, quadrilaterals and tetrahedra with a number each: what readers of such formats find.
 
+use super::quads::Quads;
 use crate::{Attributes, Cloud, Error, Graph, Names};
 
 /// Elements of so many corners, as indices of points from 0, each with its number.
@@ -12,21 +13,17 @@ pub(crate) struct Listed {
     /// Whether the third coordinate is in the file.
     pub(crate) has_heights: bool,
     pub(crate) lines: Rows<2>,
-    pub(crate) triangles: Rows<3>,
+    triangles: Rows<3>,
+    pub(crate) quads: Quads,
     pub(crate) tetrahedra: Rows<4>,
     pub(crate) names: Names,
     pub(crate) losses: Vec<String>,
 }
 
 impl Listed {
-    /// Adds an element by its corners, which must be points.
+    /// Adds a simplex by its corners, which must be points.
     pub(crate) fn push(&mut self, format: &str, corners: &[u64], number: i64) -> Result<(), Error> {
-        let count = self.points.len();
-        if let Some(corner) = corners.iter().find(|&&corner| corner >= count as u64) {
-            return Err(Error::content(format!(
-                "{format}: an element has corner {corner} from 0, but there are {count} points"
-            )));
-        }
+        self.judge(format, corners)?;
         match *corners {
             [a, b] => self.lines.push(([a, b], number)),
             [a, b, c] => self.triangles.push(([a, b, c], number)),
@@ -34,6 +31,29 @@ impl Listed {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Adds a quadrilateral in the same way.
+    pub(crate) fn push_quad(&mut self, format: &str, corners: [u64; 4], number: i64) -> Result<(), Error> {
+        self.judge(format, &corners)?;
+        self.quads.push(self.triangles.len(), corners, number);
+        Ok(())
+    }
+
+    fn judge(&self, format: &str, corners: &[u64]) -> Result<(), Error> {
+        let count = self.points.len();
+        if let Some(corner) = corners.iter().find(|&&corner| corner >= count as u64) {
+            return Err(Error::content(format!(
+                "{format}: an element has corner {corner} from 0, but there are {count} points"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The triangles with their numbers, and two for each quadrilateral.
+    pub(crate) fn triangles(&mut self, format: &str) -> Result<Rows<3>, Error> {
+        let place = |i: u64| [0, 1].map(|k| self.points[i as usize][k]);
+        self.quads.among(format, std::mem::take(&mut self.triangles), place)
     }
 
     /// The points.
@@ -59,10 +79,11 @@ impl Listed {
     }
 
     /// The numbers of the triangles; nothing if all are 0.
-    pub(crate) fn regions(&self) -> Attributes {
-        let is_known = self.triangles.iter().any(|triangle| triangle.1 != 0);
-        let values = self.triangles.iter().filter(|_| is_known).map(|triangle| triangle.1 as f64).collect();
-        Attributes { width: usize::from(is_known), values }
+    pub(crate) fn regions(&mut self, format: &str) -> Result<Attributes, Error> {
+        let triangles = self.triangles(format)?;
+        let is_known = triangles.iter().any(|triangle| triangle.1 != 0);
+        let values = triangles.iter().filter(|_| is_known).map(|triangle| triangle.1 as f64).collect();
+        Ok(Attributes { width: usize::from(is_known), values })
     }
 }
 

@@ -14,7 +14,13 @@ use crate::error::excerpt;
 use crate::names::together;
 use crate::{Error, Mesh, Remark, Source};
 
-/// Lists of elements by the number of their corners.
+/// The name of the format in messages.
+pub(crate) const NAME: &str = "MESH";
+
+/// The list of quadrilaterals.
+const QUADRILATERALS: &str = "Quadrilaterals";
+
+/// Lists of simplices by the number of their corners.
 const LISTS: [(&str, usize); 3] = [("Edges", 2), ("Triangles", 3), ("Tetrahedra", 4)];
 
 /// Lists that a reader may do without, and how many numbers an entry has.
@@ -51,7 +57,7 @@ pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io
     list(&elements.sides, dimension, name_of(dimension))?;
     list(&elements.cells, dimension + 1, name_of(dimension + 1))?;
     if dimension == 2 {
-        list(&elements.cells, 4, "Quadrilaterals")?;
+        list(&elements.cells, 4, QUADRILATERALS)?;
     }
     writeln!(out, "End")?;
     Ok(together([elements.renumbered()]))
@@ -126,6 +132,11 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
             name => {
                 if let Some(&(_, corners)) = LISTS.iter().find(|list| list.0 == name) {
                     elements(&mut words, corners, &mut found)?;
+                } else if name == QUADRILATERALS {
+                    for _ in 0..words.number::<usize>("the number of elements")? {
+                        let (corners, reference) = element(&mut words, 4, &found)?;
+                        found.push_quad(NAME, corners, reference)?;
+                    }
                 } else if let Some(&(_, width)) = PASSED.iter().find(|list| list.0 == name) {
                     for _ in 0..words.number::<usize>("the number of entries")?.saturating_mul(width) {
                         let _: i64 = words.number("an entry")?;
@@ -139,19 +150,24 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
     if has_vertices { Ok(found) } else { Err(Error::content("MESH: it has no Vertices")) }
 }
 
-/// Reads a list of elements, which count vertices from 1.
+/// Reads a list of simplices.
 fn elements(words: &mut Words, count: usize, found: &mut Listed) -> Result<(), Error> {
     for _ in 0..words.number::<usize>("the number of elements")? {
-        let mut corners = [0; 4];
-        for slot in &mut corners[..count] {
-            let number: u64 = words.number("a corner")?;
-            *slot = match number.checked_sub(1) {
-                Some(index) if index < found.points.len() as u64 => index,
-                _ => return Err(words.error(format!("there is no vertex {number}"))),
-            };
-        }
-        let reference = words.number("a reference")?;
-        found.push("MESH", &corners[..count], reference)?;
+        let (corners, reference) = element(words, count, found)?;
+        found.push(NAME, &corners[..count], reference)?;
     }
     Ok(())
+}
+
+/// Reads the corners of an element, which count vertices from 1, and its reference.
+fn element(words: &mut Words, count: usize, found: &Listed) -> Result<([u64; 4], i64), Error> {
+    let mut corners = [0; 4];
+    for slot in &mut corners[..count] {
+        let number: u64 = words.number("a corner")?;
+        *slot = match number.checked_sub(1) {
+            Some(index) if index < found.points.len() as u64 => index,
+            _ => return Err(words.error(format!("there is no vertex {number}"))),
+        };
+    }
+    Ok((corners, words.number("a reference")?))
 }

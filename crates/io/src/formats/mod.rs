@@ -34,6 +34,7 @@ pub(crate) mod ply;
 pub(crate) mod poly;
 pub(crate) mod polyhedra;
 pub(crate) mod ptx;
+pub(crate) mod quads;
 pub(crate) mod raw;
 mod rings;
 pub(crate) mod shapefile;

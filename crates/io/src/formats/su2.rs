@@ -16,6 +16,9 @@ use crate::error::excerpt;
 use crate::names::{Rule, together, told};
 use crate::{Error, Mesh, Remark, Source};
 
+/// The name of the format in messages.
+pub(crate) const NAME: &str = "SU2";
+
 /// The number of a quadrilateral.
 const QUADRILATERAL: u32 = 9;
 
@@ -66,7 +69,7 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
     let mut found = Listed::default();
     let mut dimension = 0;
     let mut tags: Vec<(String, usize)> = Vec::new();
-    let mut cells: Vec<(Vec<u64>, usize)> = Vec::new();
+    let mut cells: Vec<(Vec<u64>, bool, usize)> = Vec::new();
     let mut has_points = false;
     while let Some(key) = next_key(&mut lines)? {
         let (name, value, number) = key;
@@ -101,13 +104,15 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
                     let line = content(&mut lines, "elements", i)?;
                     let mut words = line.text.split_whitespace();
                     let kind: u32 = line.number(words.next(), "the kind of the element")?;
-                    let Some(&(corners, _)) = KINDS.iter().find(|known| known.1 == kind) else {
+                    let known = KINDS.iter().find(|known| known.1 == kind).map(|known| known.0);
+                    let is_quad = kind == QUADRILATERAL && dimension == 2;
+                    let Some(corners) = known.or(is_quad.then_some(4)) else {
                         return Err(line.error(format!(
-                            "elements of kind {kind} are no lines, triangles or tetrahedra"
+                            "elements of kind {kind} are no lines, triangles, quadrilaterals of the plane or tetrahedra"
                         )));
                     };
                     let corner = |_| line.number(words.next(), "a corner");
-                    cells.push(((0..corners).map(corner).collect::<Result<_, _>>()?, tag));
+                    cells.push(((0..corners).map(corner).collect::<Result<_, _>>()?, is_quad, tag));
                 }
             }
             "MARKER_TAG" => tags.push((value.clone(), number)),
@@ -120,9 +125,12 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Listed, Error> {
         return Err(Error::content("SU2: it has no NPOIN"));
     }
     let markers = numbers_of(&tags, &mut found)?;
-    for (corners, tag) in cells {
+    for (corners, is_quad, tag) in cells {
         let marker = tag.checked_sub(1).map_or(0, |at| markers[at]);
-        found.push("SU2", &corners, marker)?;
+        match corners[..] {
+            [a, b, c, d] if is_quad => found.push_quad(NAME, [a, b, c, d], marker)?,
+            _ => found.push(NAME, &corners, marker)?,
+        }
     }
     Ok(found)
 }

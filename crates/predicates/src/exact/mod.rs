@@ -182,7 +182,7 @@ fn to_integers<const N: usize>(coordinates: &[f64; N], bits: i32) -> Option<[i64
 }
 
 /// A finite `f64` as `mantissa * 2^exponent` with an odd mantissa, or (0, i32::MAX) for zero.
-fn decode(x: f64) -> (i64, i32) {
+pub(crate) fn decode(x: f64) -> (i64, i32) {
     if x == 0.0 {
         return (0, i32::MAX);
     }

@@ -13,6 +13,7 @@
 //!
 //! Cost: O(log n) expected for each new vertex; some 250 nanoseconds a triangle.
 
+mod all_quads;
 mod arcs;
 mod coarsen;
 mod criteria;
@@ -29,9 +30,11 @@ mod rules;
 mod shape;
 mod shapes;
 mod smooth;
+mod smooth_quads;
 mod split;
 mod survey;
 
+pub use all_quads::AllQuads2;
 pub use criteria::{Keep, Refinement};
 pub use layers::Layers2;
 pub use middles::Middle2;

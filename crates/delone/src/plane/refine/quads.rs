@@ -12,6 +12,7 @@ use std::collections::{BTreeSet, BinaryHeap};
 use delone_predicates::orient2d;
 
 use super::Refined2;
+use super::all_quads::range_of_angles;
 use crate::ids::{EdgeId, TriangleId, VertexId};
 use crate::plane::Constrained2;
 
@@ -52,6 +53,11 @@ impl Quads2 {
         let mut pairing = Pairing::new(c, refined);
         pairing.run();
         pairing.quads()
+    }
+
+    /// The smallest and the largest angle of the quadrilaterals in degrees, rounded; nothing if there are none.
+    pub fn angles(&self, c: &Constrained2) -> Option<[f64; 2]> {
+        range_of_angles(self.corners.iter().map(|corners| corners.map(|v| c.point(v))))
     }
 }
 
@@ -179,7 +185,7 @@ impl<'a> Pairing<'a> {
 }
 
 /// From one point towards another one, with a largest coordinate of one: so that squares stay in the range of numbers.
-fn direction(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+pub(super) fn direction(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     // Halves, because a difference may be too large.
     let d = [0, 1].map(|k| 0.5 * to[k] - 0.5 * from[k]);
     let largest = d[0].abs().max(d[1].abs());

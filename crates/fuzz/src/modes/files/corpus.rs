@@ -318,7 +318,7 @@ const OLD_GMSH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\
     4 4 2 0 1 10 20 30 25\n$EndElements\n";
 
 /// Meshes with names, and with what else their formats have.
-const NAMED: [(Format, &str); 3] = [
+const NAMED: [(Format, &str); 5] = [
     (
         Format::Poly,
         "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n1 1\n1 1 2 2\n0\n# boundary 2 in # let\n#region 1e0 \"steel\"\n",
@@ -332,6 +332,12 @@ const NAMED: [(Format, &str); 3] = [
         Format::Su2,
         "% by hand\nNDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 3 3\n0 0 0\n4 0 1\n0 3 2\nNMARK= 2\n\
          MARKER_TAG= inlet % west\nMARKER_ELEMS= 1\n3 0 2\nMARKER_TAG= 1\nMARKER_ELEMS= 1\n3 0 1\n",
+    ),
+    // Quadrilaterals among triangles.
+    (Format::Su2, "NDIME= 2\nNELEM= 2\n9 0 1 2 3 0\n5 0 2 4 1\nNPOIN= 5\n0 0\n4 0\n4 3\n1 1\n-1 4\n"),
+    (
+        Format::Medit,
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n4 0 0\n4 3 0\n0 3 0\nQuadrilaterals\n1\n1 2 3 4 7\nEnd\n",
     ),
 ];
 

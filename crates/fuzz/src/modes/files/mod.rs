@@ -113,7 +113,17 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
         Err(error) => said.push(error.to_string()),
     }
     let message = |outcome: Result<(), delone_io::Error>| outcome.err().map(|error| error.to_string());
-    said.extend(message(source().and_then(|source| delone_io::read_triangles(source, format).map(|_| ()))));
+    let triangles = source().and_then(|source| delone_io::read_triangles(source, format));
+    if let Ok(triangles) = &triangles {
+        // Each quadrilateral is two of them.
+        match source().and_then(|source| delone_io::count_quads(source, format)) {
+            Ok(count) if 2 * count > triangles.len() => {
+                return Err("more quadrilaterals than halves".to_owned());
+            }
+            outcome => said.extend(message(outcome.map(|_| ()))),
+        }
+    }
+    said.extend(message(triangles.map(|_| ())));
     said.extend(message(source().and_then(|source| delone_io::read_tetrahedra(source, format).map(|_| ()))));
     said.extend(message(source().and_then(|source| delone_io::read_rings(source, format).map(|_| ()))));
     said.extend(message(source().and_then(|source| delone_io::read_segments(source, format).map(|_| ()))));

@@ -13,7 +13,7 @@ use crate::elements::{Elements, Group};
 use crate::names::{Rule, told};
 use crate::{Mesh, Remark};
 
-pub(crate) use read::{has_lines, read_graph, read_groups, read_points, read_simplices};
+pub(crate) use read::{count_quads, has_lines, read_graph, read_groups, read_points, read_simplices};
 
 /// Gmsh's number for a quadrilateral.
 const QUADRILATERAL: u8 = 3;

@@ -1,9 +1,10 @@
-//! Reads meshes of Gmsh, as text, of versions 2 and 4.1: points, and lines, triangles or tetrahedra. Points are in the order of
+//! Reads meshes of Gmsh, as text, of versions 2 and 4.1: points, and lines, triangles or tetrahedra. Quadrilaterals are two triangles. Points are in the order of
 //! their numbers, which may have gaps. Other sections are passed over, and named.
 
 use super::groups::Groups;
 use crate::error::excerpt;
 use crate::formats::lines::{Line, Lines};
+use crate::formats::quads::Quads;
 use crate::formats::triangle::RESERVED_ROWS;
 use crate::{Attributes, Cloud, Error, Graph, Source};
 
@@ -39,6 +40,11 @@ pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<
     Mesh::read(source)?.simplices.ok_or_else(|| Error::content("MSH: it has no $Elements"))
 }
 
+/// How many quadrilaterals are read as two triangles.
+pub(crate) fn count_quads(source: Box<dyn Source>) -> Result<usize, Error> {
+    Ok(Mesh::<3>::read(source)?.quads)
+}
+
 /// Reads the physical groups of the triangles; nothing if none is in any.
 pub(crate) fn read_groups(source: Box<dyn Source>) -> Result<Attributes, Error> {
     let mesh = Mesh::<3>::read(source)?;
@@ -54,6 +60,8 @@ struct Mesh<const N: usize> {
     simplices: Option<Vec<[u64; N]>>,
     /// The physical group of each; 0 if it is in none.
     markers: Vec<i64>,
+    /// Of triangles: how many quadrilaterals are two of them.
+    quads: usize,
     groups: Groups,
 }
 
@@ -61,7 +69,7 @@ impl<const N: usize> Mesh<N> {
     fn read(source: Box<dyn Source>) -> Result<Self, Error> {
         let (nodes, mut groups, mut reader) = Reader::start(source)?.nodes()?;
         let tags: Vec<u64> = nodes.iter().map(|node| node.0).collect();
-        let mut rows = Rows { tags: &tags, simplices: Vec::new(), markers: Vec::new() };
+        let mut rows = Rows { tags: &tags, simplices: Vec::new(), quads: Quads::default() };
         let mut has_elements = false;
         while let Some(section) = reader.section()? {
             if section == "Elements" && !std::mem::replace(&mut has_elements, true) {
@@ -74,8 +82,11 @@ impl<const N: usize> Mesh<N> {
                 groups.read(section, &mut reader)?;
             }
         }
-        let Rows { simplices, markers, .. } = rows;
-        Ok(Self { simplices: has_elements.then_some(simplices), markers, nodes, groups })
+        let place = |i: u64| [0, 1].map(|k| nodes[i as usize].1[k]);
+        let all = rows.quads.among("MSH", rows.simplices, place)?;
+        let quads = rows.quads.len();
+        let (simplices, markers) = all.into_iter().unzip();
+        Ok(Self { simplices: has_elements.then_some(simplices), markers, quads, nodes, groups })
     }
 
     fn cloud(&self, takes_names: bool) -> Cloud {
@@ -235,10 +246,11 @@ impl Reader {
             let mut words = line.text.split_whitespace().skip(1);
             let kind = line.number(words.next(), "the kind of the element")?;
             let tags: usize = line.number(words.next(), "the number of tags")?;
-            if is_wanted::<N>(&line, kind)? {
+            let wanted = wanted::<N>(&line, kind)?;
+            if wanted != Wanted::Nothing {
                 let group =
                     if tags > 0 { line.number(words.clone().next(), "the physical group")? } else { 0 };
-                rows.push(&line, words.skip(tags), group)?;
+                rows.push(&line, words.skip(tags), wanted, group)?;
             }
         }
         Ok(())
@@ -257,12 +269,12 @@ impl Reader {
             if more > count - done {
                 return Err(line.error(format!("{more} elements after {done} of {count}")));
             }
-            let wanted = is_wanted::<N>(&line, kind)?;
+            let wanted = wanted::<N>(&line, kind)?;
             let group = groups.of(N - 1, entity);
             for i in done..done + more {
                 let line = self.line_of("elements", i, count)?;
-                if wanted {
-                    rows.push(&line, line.text.split_whitespace().skip(1), group)?;
+                if wanted != Wanted::Nothing {
+                    rows.push(&line, line.text.split_whitespace().skip(1), wanted, group)?;
                 }
             }
             done += more;
@@ -300,26 +312,40 @@ fn position<'a>(line: &Line, mut words: impl Iterator<Item = &'a str>) -> Result
     Ok(position)
 }
 
-/// Whether elements of a kind have N corners; an error if they are no simplices.
-fn is_wanted<const N: usize>(line: &Line, kind: u32) -> Result<bool, Error> {
+/// The part of an element that is read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Nothing,
+    Simplex,
+    Quad,
+}
+
+/// The part of elements of a kind that is read where N corners are wanted; an error if they are neither simplices nor quadrilaterals.
+fn wanted<const N: usize>(line: &Line, kind: u32) -> Result<Wanted, Error> {
     let corners = match kind {
         15 => 1,
         1 | 8 | 26..=28 => 2,
         2 | 9 | 20..=25 => 3,
         4 | 11 | 29..=31 => 4,
+        3 | 10 | 16 if N == 3 => return Ok(Wanted::Quad),
+        3 | 10 | 16 => 0,
         // No corner of a line, whatever it is.
         _ if N == 2 => 0,
-        _ => return Err(line.error(format!("elements of kind {kind} are no triangles or tetrahedra"))),
+        _ => {
+            return Err(
+                line.error(format!("elements of kind {kind} are no triangles, quadrilaterals or tetrahedra"))
+            );
+        }
     };
-    Ok(corners == N)
+    Ok(if corners == N { Wanted::Simplex } else { Wanted::Nothing })
 }
 
 /// Elements as they are read.
 struct Rows<'a, const N: usize> {
     /// The numbers of the nodes, increasing.
     tags: &'a [u64],
-    simplices: Vec<[u64; N]>,
-    markers: Vec<i64>,
+    simplices: Vec<([u64; N], i64)>,
+    quads: Quads,
 }
 
 impl<const N: usize> Rows<'_, N> {
@@ -328,17 +354,21 @@ impl<const N: usize> Rows<'_, N> {
         &mut self,
         line: &Line,
         mut words: impl Iterator<Item = &'a str>,
+        wanted: Wanted,
         group: i64,
     ) -> Result<(), Error> {
-        let mut corners = [0; N];
-        for slot in &mut corners {
+        let mut corners = [0; 4];
+        let count = if wanted == Wanted::Quad { 4 } else { N };
+        for slot in &mut corners[..count] {
             let tag: u64 = line.number(words.next(), "a corner")?;
             let index =
                 self.tags.binary_search(&tag).map_err(|_| line.error(format!("there is no node {tag}")))?;
             *slot = index as u64;
         }
-        self.simplices.push(corners);
-        self.markers.push(group);
+        match wanted {
+            Wanted::Quad => self.quads.push(self.simplices.len(), corners, group),
+            _ => self.simplices.push((std::array::from_fn(|k| corners[k]), group)),
+        }
         Ok(())
     }
 }

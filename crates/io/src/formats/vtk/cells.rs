@@ -1,9 +1,10 @@
-//! Cells of VTK's files, as far as they are lines, triangles or tetrahedra.
+//! Cells of VTK's files, as far as they are lines, triangles, quadrilaterals or tetrahedra.
 
 use std::ops::Range;
 
 use super::broken;
 use crate::Error;
+use crate::formats::quads::Quads;
 
 /// VTK's number of chains of segments.
 pub(super) const POLYLINE: u8 = 4;
@@ -21,7 +22,9 @@ enum Family {
     Chain,
     /// A simplex of so many corners, which are its first points.
     Simplex(usize),
-    /// A triangle if it has three points.
+    /// A quadrilateral, whose corners are its first points.
+    Quad,
+    /// A triangle if it has three points, a quadrilateral if it has four.
     Polygon,
     Other,
 }
@@ -35,6 +38,7 @@ impl Family {
             3 | 21 | 35 | 68 | 75 => Self::Simplex(2),
             5 | 22 | 34 | 69 | 76 => Self::Simplex(3),
             10 | 24 | 71 | 78 => Self::Simplex(4),
+            9 | 23 | 28 | 70 | 77 => Self::Quad,
             POLYGON => Self::Polygon,
             _ => Self::Other,
         }
@@ -130,29 +134,44 @@ impl Cells {
         (segments, has_markers.then_some(markers))
     }
 
-    /// The simplices of N corners. Cells of fewer corners are passed over, and so are tetrahedra where triangles are wanted.
-    pub(super) fn simplices<const N: usize>(&self) -> Result<Vec<[u64; N]>, Error> {
-        let mut simplices = Vec::new();
+    /// The simplices of N corners between points, and how many quadrilaterals are two triangles of them. Cells of a lower dimension are passed
+    /// over, and so are tetrahedra where triangles are wanted.
+    pub(super) fn simplices<const N: usize>(
+        &self,
+        points: &[[f64; 2]],
+    ) -> Result<(Vec<[u64; N]>, usize), Error> {
+        let (mut simplices, mut quads) = (Vec::new(), Quads::default());
+        let place = |i: u64| points[i as usize];
         for (i, (family, points)) in self.iter().enumerate() {
+            let too_few = || broken(format!("cell {i} has too few corners"));
             let width = match family {
                 Family::Points | Family::Chain => continue,
                 Family::Simplex(width) => width,
                 Family::Polygon if points.len() == 3 => 3,
-                Family::Polygon | Family::Other => {
-                    let what = format!(
-                        "cell {i} (of VTK's kind {}, with {} points) is no triangle or tetrahedron",
-                        self.kinds[i],
-                        points.len()
-                    );
-                    return Err(broken(what));
+                Family::Polygon if points.len() != 4 => return Err(self.strange(i, points)),
+                Family::Quad | Family::Polygon => {
+                    if N == 3 {
+                        let corners = points.first_chunk().copied();
+                        quads.push(simplices.len(), corners.ok_or_else(too_few)?, 0);
+                    }
+                    continue;
                 }
+                Family::Other => return Err(self.strange(i, points)),
             };
             if width == N {
                 let corners = points.first_chunk().copied();
-                simplices.push(corners.ok_or_else(|| broken(format!("cell {i} has too few corners")))?);
+                simplices.push((corners.ok_or_else(too_few)?, 0));
             }
         }
-        Ok(simplices)
+        let all = quads.among("VTK", simplices, place)?;
+        Ok((all.into_iter().map(|row| row.0).collect(), quads.len()))
+    }
+
+    fn strange(&self, i: usize, points: &[u64]) -> Error {
+        let (kind, count) = (self.kinds[i], points.len());
+        broken(format!(
+            "cell {i} (of VTK's kind {kind}, with {count} points) is no triangle, quadrilateral or tetrahedron"
+        ))
     }
 }
 

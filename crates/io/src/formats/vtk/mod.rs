@@ -1,5 +1,5 @@
 //! VTK's files: the legacy format (`.vtk`, in `legacy.rs`), and XML (`.vtu`, `.vtp`, in `xml.rs`). Points; and of the cells
-//! lines, triangles and tetrahedra, of any order by their corners. Lines are segments, and no borders;
+//! lines, triangles, quadrilaterals (as two triangles) and tetrahedra, of any order by their corners. Lines are segments, and no borders;
 //! an array `marker` of the cells of XML has their markers.
 
 mod cells;
@@ -47,12 +47,22 @@ pub(crate) fn has_xml_lines(source: Box<dyn Source>) -> bool {
 
 /// Reads the triangles (N = 3) or tetrahedra (N = 4) of a legacy file, as indices of the points.
 pub(crate) fn read_legacy_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
-    legacy::read(source, true)?.1.simplices()
+    Ok(simplices(legacy::read, source)?.0)
 }
 
 /// Reads the triangles (N = 3) or tetrahedra (N = 4) of an XML file, as indices of the points.
 pub(crate) fn read_xml_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
-    xml::read(source, true)?.1.simplices()
+    Ok(simplices(xml::read, source)?.0)
+}
+
+/// How many quadrilaterals of an XML file, or of a legacy one, are read as two triangles.
+pub(crate) fn count_quads(source: Box<dyn Source>, is_legacy: bool) -> Result<usize, Error> {
+    Ok(simplices::<3>(if is_legacy { legacy::read } else { xml::read }, source)?.1)
+}
+
+fn simplices<const N: usize>(read: Read, source: Box<dyn Source>) -> Result<(Vec<[u64; N]>, usize), Error> {
+    let (cloud, cells) = read(source, true)?;
+    cells.simplices(&cloud.xy)
 }
 
 fn graph(read: Read, source: Box<dyn Source>) -> Result<Graph, Error> {

@@ -165,7 +165,9 @@ fn cells_of_all_pieces() {
         ("5", "4", "0 1 2", "outside of the list"),
         ("5 5", "3 2", "0 1 2", "outside of the list"),
         ("5", "3 3", "0 1 2", "1 kinds of 2 cells"),
-        ("9", "4", "0 1 2 3", "kind 9, with 4 points"),
+        ("8", "4", "0 1 2 3", "kind 8, with 4 points"),
+        ("9", "3", "0 1 2", "too few corners"),
+        ("9", "4", "0 1 1 0", "crosses itself or is flat"),
         ("5", "2", "0 1", "too few corners"),
     ] {
         let error = read_xml_simplices::<3>(source(file(&[piece(kinds, ends, corners)]).as_bytes()));
