@@ -251,12 +251,14 @@ impl Mesh {
 
     /// Quadrilaterals alone, smoothed in rounds.
     fn all_quads<'py>(&self, py: Python<'py>, rounds: usize) -> PyResult<AllQuads<'py>> {
-        let (all, rows) = self.of(py, move |this| {
+        let made = self.of(py, move |this| {
             let mut all = AllQuads2::of(&this.made, &Quads2::of(&this.made, &this.refined));
+            all.bend(&this.refined.arc_middles(&this.made, &this.arcs)?);
             all.smooth(&this.made, &this.refined, rounds);
             let rows: Vec<i64> = all.triangles.iter().map(|t| this.rows[t.index()]).collect();
-            (all, rows)
+            Ok((all, rows))
         })?;
+        let (all, rows) = made.map_err(python_error)?;
         let corners: Vec<i64> = all.corners.iter().flatten().map(|&i| i as i64).collect();
         let middles: Vec<i64> = all.middles.iter().flatten().map(|v| v.index() as i64).collect();
         let left: Vec<i64> = all.left.iter().map(|&row| row as i64).collect();

@@ -48,6 +48,23 @@ fn meshes_follow_arcs() {
     // The circle ends where it begins: one position is there twice.
     assert_eq!(on_circle, 2 * on.len() - 1);
     assert!(nodes.iter().all(|&p| radius(p) > 1.0 - 4e-16));
+
+    // Quadrilaterals alone have corners in the middles of sides.
+    place
+        .succeed("-q mesh plate.dxf --fill even-odd --edge 0.2 --all-quads -o q.su2 --stats s.json");
+    let stats: serde_json::Value = serde_json::from_str(&place.read("s.json")).expect("JSON");
+    assert_eq!(stats["quads"]["not_convex"].as_u64(), Some(0));
+    let corners: Vec<[f64; 2]> = place
+        .read("q.su2")
+        .lines()
+        .filter_map(|line| {
+            let numbers: Vec<f64> = line.split_whitespace().map_while(|word| word.parse().ok()).collect();
+            line.contains('.').then(|| Some([*numbers.first()?, *numbers.get(1)?]))?
+        })
+        .collect();
+    let on_circle = corners.iter().filter(|&&p| (radius(p) - 1.0).abs() < 4e-16).count();
+    assert_eq!(on_circle, 2 * on.len() - 1);
+    assert!(corners.iter().all(|&p| radius(p) > 1.0 - 4e-16));
 }
 
 #[test]

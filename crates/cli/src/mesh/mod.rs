@@ -117,7 +117,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("vertices", kept.vertex_count());
     let angles = args.color == Some(ColorName::Angle);
     let options = picture::Options { angles, size: args.picture_size, ..picture::Options::default() };
-    made.write((&kept, &cells), &plan, (&targets, &options), &label, quiet)?;
+    made.write((&kept, &cells), &plan, (&targets, &options), quiet)?;
     stats.phase("write");
     tell::summary(report, &stats, quiet);
     if plan.traits.histogram {
@@ -138,8 +138,8 @@ struct Made {
     /// How many polygons of the input are regions.
     polygons: usize,
     naming: Naming,
-    /// Segments that are chords of arcs.
-    arcs: Vec<(SegmentId, [f64; 2])>,
+    /// The middles of sides that are chords of arcs.
+    arc_middles: Vec<Middle2>,
 }
 
 impl Made {
@@ -203,7 +203,20 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons, naming, arcs })
+        let arc_middles =
+            refined.arc_middles(&triangulation, &arcs).map_err(|error| refused(label, &error))?;
+        Ok(Self {
+            triangulation,
+            refined,
+            graph,
+            seeds,
+            heights,
+            attributes,
+            again,
+            polygons,
+            naming,
+            arc_middles,
+        })
     }
 
     /// Writes all files.
@@ -212,7 +225,6 @@ impl Made {
         (kept, cells): (&Kept, &Cells),
         plan: &Plan,
         (targets, options): (&[Target], &picture::Options),
-        label: &Path,
         quiet: bool,
     ) -> Result<(), Failure> {
         let (c, graph, domains) = (&self.triangulation, &self.graph, &self.refined.domains);
@@ -253,7 +265,8 @@ impl Made {
         c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
         let partners = cells.partners(c);
-        let middles = if plan.traits.second_order { self.middles(kept, label)? } else { Vec::new() };
+        let named = |&([v, w], middle): &Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
+        let middles: Vec<Middle2> = self.arc_middles.iter().filter_map(named).collect();
         let mesh = Mesh {
             heights: heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
@@ -278,14 +291,6 @@ impl Made {
             Cells::Parts(quads) => quads::write_parts((self, quads), &mesh, targets, options, quiet),
             _ => write_all(&mesh, targets, options, quiet),
         }
-    }
-
-    /// Nodes in the middles of arcs.
-    fn middles(&self, kept: &Kept, label: &Path) -> Result<Vec<Middle2>, Failure> {
-        let found = self.refined.arc_middles(&self.triangulation, &self.arcs);
-        let found = found.map_err(|error| refused(label, &error))?;
-        let named = |([v, w], middle): Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
-        Ok(found.into_iter().filter_map(named).collect())
     }
 
     /// The region of each triangle, if regions are written.

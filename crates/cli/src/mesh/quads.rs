@@ -43,6 +43,7 @@ impl Cells {
             Wanted::Pairs => Self::Pairs(pairs()),
             Wanted::All => {
                 let mut parts = AllQuads2::of(c, &pairs());
+                parts.bend(&made.arc_middles);
                 parts.smooth(c, &made.refined, rounds);
                 Self::Parts(parts)
             }

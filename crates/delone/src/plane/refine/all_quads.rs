@@ -6,8 +6,11 @@
 //!
 //! Cost: O(n log n).
 
+use std::collections::BTreeMap;
+
 use delone_predicates::{mean, orient2d};
 
+use super::middles::Middle2;
 use super::quads::Quads2;
 use crate::ids::{TriangleId, VertexId};
 use crate::plane::Constrained2;
@@ -79,6 +82,50 @@ impl AllQuads2 {
         made.middles = middles;
         made.judge();
         made
+    }
+
+    /// Puts middles of edges onto arcs ([`super::Refined2::arc_middles`]), but for those beside a quadrilateral that is not convex then.
+    ///
+    /// Cost: O(n log a) for a middles on arcs.
+    ///
+    /// ```
+    /// use delone::{AllQuads2, Constrained2, Quads2, Refinement, SegmentId};
+    ///
+    /// let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    /// let mut c = Constrained2::from_parts(&corners, &[[0, 1], [1, 2], [2, 3], [3, 0]])?;
+    /// let arcs: Vec<_> = (0..4).map(|s| (SegmentId::new(s), [0.0, 0.0])).collect();
+    /// let refined = Refinement::new().edge(0.2).arcs(&arcs).run(&mut c)?;
+    /// let mut all = AllQuads2::of(&c, &Quads2::of(&c, &refined));
+    /// all.bend(&refined.arc_middles(&c, &arcs)?);
+    /// let on_circle = all.points.iter().filter(|[x, y]| (x * x + y * y - 1.0).abs() < 1e-14).count();
+    /// assert!(on_circle >= 60 && all.left.is_empty());
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn bend(&mut self, middles: &[Middle2]) {
+        if middles.is_empty() {
+            return;
+        }
+        let number = |ends: &[VertexId; 2]| self.middles.binary_search(ends).ok();
+        let mut straight: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for (ends, place) in middles {
+            if let Some(i) = number(ends).map(|k| self.first + k) {
+                straight.insert(i, std::mem::replace(&mut self.points[i], *place));
+            }
+        }
+        loop {
+            let bent = |row: &usize| self.corners[*row].iter().any(|i| straight.contains_key(i));
+            let all = (0..self.corners.len()).filter(bent);
+            let flawed: Vec<usize> = all.filter(|&row| !is_convex(self.places(row))).collect();
+            if flawed.is_empty() {
+                break;
+            }
+            for i in flawed.into_iter().flat_map(|row| self.corners[row]) {
+                if let Some(place) = straight.remove(&i) {
+                    self.points[i] = place;
+                }
+            }
+        }
+        self.judge();
     }
 
     /// Notes which quadrilaterals are not convex.
