@@ -63,7 +63,7 @@ fn meshes_follow_arcs() {
         })
         .collect();
     let on_circle = corners.iter().filter(|&&p| (radius(p) - 1.0).abs() < 4e-16).count();
-    assert_eq!(on_circle, 2 * on.len() - 1);
+    assert_eq!(on_circle, 2 * (on.len() - 1));
     assert!(corners.iter().all(|&p| radius(p) > 1.0 - 4e-16));
 }
 
