@@ -70,6 +70,9 @@ def test_layers_follow_chosen_arcs() -> None:
     made = delone.mesh(POINTS, SEGMENTS, centers=CENTERS, edge=0.3, layers=layers)
     centroids = made.points[made.triangles[made.is_layer]].mean(axis=1)
     assert made.report.layers.rows == 4 and np.hypot(*centroids.T).max() < 1.1
+    fine = delone.mesh(POINTS, SEGMENTS, centers=CENTERS, edge=0.05, layers=layers)
+    on_arcs = fine.points[fine.segments[fine.segment_origin >= 4]].reshape(-1, 2)
+    assert len(on_arcs) > 200 and np.abs(np.hypot(*on_arcs.T) - 1).max() < 4e-16
 
 
 def test_polygons_have_arcs() -> None:

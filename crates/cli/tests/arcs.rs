@@ -50,8 +50,7 @@ fn meshes_follow_arcs() {
     assert!(nodes.iter().all(|&p| radius(p) > 1.0 - 4e-16));
 
     // Quadrilaterals alone have corners in the middles of sides.
-    place
-        .succeed("-q mesh plate.dxf --fill even-odd --edge 0.2 --all-quads -o q.su2 --stats s.json");
+    place.succeed("-q mesh plate.dxf --fill even-odd --edge 0.2 --all-quads -o q.su2 --stats s.json");
     let stats: serde_json::Value = serde_json::from_str(&place.read("s.json")).expect("JSON");
     assert_eq!(stats["quads"]["not_convex"].as_u64(), Some(0));
     let corners: Vec<[f64; 2]> = place

@@ -14,11 +14,12 @@ mod seeds;
 mod source;
 mod tell;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use delone::{
-    Constrained2, Error, Fill, Location2, Middle2, Refined2, Seeds2, SegmentId, Shapes2, Triangulation,
-    VertexId,
+    Constrained2, EdgeId, Error, Fill, Location2, Middle2, Refined2, Seeds2, SegmentId, Shapes2,
+    Triangulation, VertexId,
 };
 use delone_io::{
     Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
@@ -30,7 +31,7 @@ use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
 use crate::constrained::Constrained;
 use crate::constrained::features;
 use crate::files;
-use crate::message::{Failure, answer, is_strict, note};
+use crate::message::{Failure, answer, grouped, is_strict, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 use field::{Sizes, between};
@@ -140,6 +141,8 @@ struct Made {
     naming: Naming,
     /// The middles of sides that are chords of arcs.
     arc_middles: Vec<Middle2>,
+    /// How many such sides are to stay straight.
+    straight: usize,
 }
 
 impl Made {
@@ -205,6 +208,7 @@ impl Made {
         });
         let arc_middles =
             refined.arc_middles(&triangulation, &arcs).map_err(|error| refused(label, &error))?;
+        let straight = sides_along(&triangulation, &refined, &arcs).saturating_sub(arc_middles.len());
         Ok(Self {
             triangulation,
             refined,
@@ -216,6 +220,7 @@ impl Made {
             polygons,
             naming,
             arc_middles,
+            straight,
         })
     }
 
@@ -267,6 +272,13 @@ impl Made {
         let partners = cells.partners(c);
         let named = |&([v, w], middle): &Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
         let middles: Vec<Middle2> = self.arc_middles.iter().filter_map(named).collect();
+        if plan.traits.second_order && self.straight > 0 {
+            let count = grouped(self.straight as u64);
+            note(
+                quiet,
+                format_args!("sides along arcs that stay straight, or elements would be inverted: {count}"),
+            );
+        }
         let mesh = Mesh {
             heights: heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
@@ -315,6 +327,19 @@ impl Made {
             regions
         })
     }
+}
+
+/// The number of sides of triangles inside along arcs.
+fn sides_along(c: &Constrained2, refined: &Refined2, arcs: &[(SegmentId, [f64; 2])]) -> usize {
+    let chains = arcs.iter().filter_map(|&(s, _)| c.chain(s));
+    let ends = chains.flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>());
+    let beside = |&[v, w]: &[VertexId; 2]| {
+        let e = c.mesh().star(v).find(|&e| c.mesh().destination(e) == w);
+        let inside = |e: EdgeId| refined.domains.is_inside(e.triangle());
+        e.is_some_and(|e| inside(e) || inside(c.mesh().twin(e)))
+    };
+    let sides: BTreeSet<[VertexId; 2]> = ends.filter(beside).map(|[v, w]| [v.min(w), v.max(w)]).collect();
+    sides.len()
 }
 
 /// Writes all files.

@@ -387,10 +387,14 @@ impl Case<'_> {
             && self.wish.area.map(field).is_none_or(largest)
     }
 
-    /// Whether a constraint sees the far corner of its triangle inside of its diametral circle.
+    /// Whether a constraint, or the last line of a layer, sees the far corner of its triangle inside of its diametral circle.
     fn is_encroached(&self, refined: &Refined2, t: TriangleId) -> bool {
         let (c, mesh) = (self.after, self.after.mesh());
-        let only_keeps = |e| c.covering(e).iter().all(|one| refined.kept.contains(&one.segment));
+        let is_layer = |e: delone::EdgeId| refined.domains.is_layer(e.triangle());
+        let only_keeps = |e| {
+            let is_kept = c.covering(e).iter().all(|one| refined.kept.contains(&one.segment));
+            is_kept && !is_layer(mesh.twin(e))
+        };
         [0, 1, 2].map(|k| t.edge(k)).into_iter().any(|e| {
             let [o, a, b] = [mesh.apex(e), mesh.origin(e), mesh.destination(e)].map(|v| c.point(v));
             c.is_constraint(e) && angle(o, a, b) < 0 && !only_keeps(e)

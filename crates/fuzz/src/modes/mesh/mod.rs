@@ -1,6 +1,7 @@
 //! Small hostile graphs are refined, in every way that can be asked for: what comes out is proved by definitions over integers,
 //! is the same for other orders of the input, and is refined again and changed like any other triangulation.
 
+mod arcs;
 mod judge;
 mod kept;
 mod shapes;
@@ -151,6 +152,8 @@ impl Attack for Mesh {
             good_stays(&c, refined, &wish).map_err(named)?;
             kept::attack(&before, &wish, &again, &mut random)
                 .map_err(|what| named(format!("of other triangles, then by {again:?}: {what}")))?;
+            arcs::attack(&before, &wish, &again, &mut random)
+                .map_err(|what| named(format!("along arcs, then by {again:?}: {what}")))?;
             let more = again.clone().inside_of(&wish);
             refine_again(&c, refined, &more, &lines)
                 .map_err(|what| named(format!("then what is inside by {more:?}: {what}")))?;

@@ -2,7 +2,9 @@
 
 use std::cell::Cell;
 
-use delone::{Constrained2, Error, Fill, Keep, Layers2, Refined2, Refinement, RegionSeed2, Seeds2, VertexId};
+use delone::{
+    Constrained2, Error, Fill, Keep, Layers2, Refined2, Refinement, RegionSeed2, Seeds2, SegmentId, VertexId,
+};
 use delone_generators::Random;
 
 use crate::nasty::{self, once_in, pick};
@@ -49,6 +51,8 @@ pub(super) struct Wish {
     seeds: Seeds2,
     /// Triangles that are given.
     triangles: Vec<[VertexId; 3]>,
+    /// Segments that are chords of arcs.
+    arcs: Vec<(SegmentId, Point)>,
 }
 
 impl Wish {
@@ -106,6 +110,7 @@ impl Wish {
             fill: pick(random, &[0, 0, 1, 1, 2, 3]),
             seeds,
             triangles: Vec::new(),
+            arcs: Vec::new(),
         }
     }
 
@@ -139,6 +144,11 @@ impl Wish {
         Self { fill: other.fill, seeds: other.seeds.clone(), ..self }
     }
 
+    /// These criteria, with segments that are chords of arcs.
+    pub(super) fn along(self, arcs: Vec<(SegmentId, Point)>) -> Self {
+        Self { arcs, ..self }
+    }
+
     /// These criteria, with an angle that is easier.
     pub(super) fn easier(&self) -> Self {
         let (length, length_at) = (None, None);
@@ -166,6 +176,7 @@ impl Wish {
             .max_vertices(self.most)
             .stop_if(&stop)
             .triangles(&self.triangles)
+            .arcs(&self.arcs)
             .fill(fill);
         if let Some(most) = self.max_area {
             how = how.max_area(most);

@@ -13,6 +13,7 @@ use crate::points::survey as bounds;
 use crate::sorting;
 
 use super::super::Refinement;
+use super::super::arcs::Centers;
 use super::super::frontal::Frontal;
 use super::super::mesher::Mesher;
 use super::super::queue::Queue;
@@ -57,7 +58,7 @@ const EDGE_OF_FAN: f64 = 0.75;
 pub(super) fn divide_sides(
     wanted: &Refinement,
     c: &Constrained2,
-    domains: &Domains2,
+    (domains, chords): (&Domains2, &Centers<VertexId>),
     sides: &mut [Side],
     height: f64,
 ) -> Result<(), Error> {
@@ -66,7 +67,8 @@ pub(super) fn divide_sides(
     let rules = Rules::new(wanted, &parts, &before);
     let layer = copy.layer();
     let bounds = bounds(&layer.points).0;
-    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &parts.origins);
+    let queue = Queue::new(&bounds, false);
+    let mut mesher = Mesher::new(layer, &rules, queue, &parts.origins).along(chords);
     let place = |v: VertexId| mesher.layer.mesh.place(v);
     let whole = sides.iter().filter_map(|side| Some([place(side.ends[0])?, place(side.ends[1])?]));
     let chains = Chains::of(&mesher, &whole.collect::<Vec<_>>());

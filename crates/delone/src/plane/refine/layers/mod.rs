@@ -24,6 +24,7 @@ mod wanted;
 
 pub use wanted::Layers2;
 
+use super::arcs::chords;
 use super::mesher::Mesher;
 use super::queue::Queue;
 use super::report::LayerReport2;
@@ -50,6 +51,7 @@ pub(super) struct Grown {
 pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) -> Result<Grown, Error> {
     let mut domains = c.domains(&wanted.fill)?;
     wanted.check_count(c, &domains)?;
+    let chords = chords(c, wanted.arcs, &domains.origins)?;
     let heights = layers.heights();
     let mut sides = border::chosen(c, &domains, layers)?;
     c.close(&domains)?;
@@ -58,7 +60,7 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
         sides = border::chosen(c, &domains, layers)?;
     }
     let height = heights.last().copied().unwrap_or(0.0);
-    border::divide_sides(wanted, c, &domains, &mut sides, height)?;
+    border::divide_sides(wanted, c, (&domains, &chords), &mut sides, height)?;
     let known = c.take_kept(&domains.kept);
     domains.kept.clear();
     let before = c.begin_refinement(&mut domains);
@@ -67,7 +69,8 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
     let rules = Rules::new(wanted, &domains, &before);
     let layer = c.layer();
     let bounds = bounds(&layer.points).0;
-    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &domains.origins);
+    let queue = Queue::new(&bounds, false);
+    let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins).along(&chords);
     let pieces: Vec<_> = sides.iter().flat_map(|side| border::put_on(&mut mesher, side)).collect();
     let chains = Chains::of(&mesher, &pieces);
     let mut plan = Plan::new(chains, heights);
