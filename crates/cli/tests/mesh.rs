@@ -282,6 +282,19 @@ fn smoothing_makes_angles_larger() {
 }
 
 #[test]
+fn off_centers_make_fewer_triangles() {
+    let place = Place::new();
+    let wing = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/gallery/wing.poly");
+    place.file("wing.poly", std::fs::read(wing).expect("a file of the gallery"));
+    let count = |placement: &str| {
+        place.succeed(&format!("-q mesh wing.poly --min-angle 30 {placement} --check -o m.node -o m.ele"));
+        mesh(&place, "m").triangles.len()
+    };
+    let [usual, off, center] = ["", "--placement offcenter", "--placement circumcenter"].map(count);
+    assert!(usual == off && off < center, "{usual} {off} {center}");
+}
+
+#[test]
 fn colors_of_angles_differ_from_others() {
     let place = Place::new();
     place.file("plan.poly", PLAN);

@@ -6,8 +6,8 @@
 
 use delone::surface::{Contours, Interpolator, Levels, Outside, gradients};
 use delone::{
-    Constrained2, Crossings, Delaunay2, Delaunay3, Furthest2, Graph, Hull2, Layers2, Refinement, Region2,
-    Regular2, Regular3, Relaxation2, VoronoiEdge2,
+    Constrained2, Crossings, Delaunay2, Delaunay3, Furthest2, Graph, Hull2, Layers2, Placement, Refinement,
+    Region2, Regular2, Regular3, Relaxation2, VoronoiEdge2,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::share;
@@ -235,6 +235,9 @@ const PLANE: &[Operation<2>] = &[
         outcome
     }),
     ("mesh by angle", |set| refined(set, Refinement::new().min_angle(25.0))),
+    ("mesh of circumcenters", |set| {
+        refined(set, Refinement::new().min_angle(25.0).placement(Placement::Circumcenter))
+    }),
     ("mesh by edge", |set| refined(set, Refinement::new().max_edge(set.unit / 16.0))),
     ("mesh by area", |set| refined(set, Refinement::new().max_area(set.unit * set.unit / 512.0))),
     ("mesh of edges", |set| refined(set, Refinement::new().edge(set.unit / 16.0).growth(1.3))),

@@ -73,6 +73,9 @@ pub(crate) struct MeshArgs {
     /// Segments that may not be split [default: nothing].
     #[arg(long, value_name = "WHAT", help_heading = "Quality")]
     pub(crate) keep: Option<KeepName>,
+    /// Where new vertices go for the sake of angles [default: offcenter].
+    #[arg(long, value_name = "WHERE", help_heading = "Quality")]
+    pub(crate) placement: Option<PlacementName>,
     /// No vertex inside of the circle around a segment, so that what is inside is a Delaunay triangulation.
     #[arg(long, help_heading = "Quality")]
     pub(crate) conforming: bool,
@@ -186,6 +189,15 @@ pub(crate) enum KeepName {
     Border,
     /// All segments.
     Constraints,
+}
+
+/// Where new vertices go for the sake of angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlacementName {
+    /// Behind the shortest side, no farther than the angle asks for: fewer triangles.
+    Offcenter,
+    /// In circumcenters.
+    Circumcenter,
 }
 
 /// The meaning of colors.

@@ -38,7 +38,7 @@ pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
 pub use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use heights::{ContoursArgs, SimplifyArgs};
 pub use las::LasArgs;
-pub(crate) use mesh::{ColorName, KeepName, LayerArgs, MeshArgs};
+pub(crate) use mesh::{ColorName, KeepName, LayerArgs, MeshArgs, PlacementName};
 pub(crate) use periodic::{GridChoice, PeriodicArgs, PeriodicBox};
 pub(crate) use place::PlaceArgs;
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs};

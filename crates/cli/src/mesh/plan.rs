@@ -1,9 +1,9 @@
 //! Plans: the criteria of a mesh and the form of its files, by options or by Triangle's switches.
 
-use delone::{Constrained2, Keep, Layers2, Refinement};
+use delone::{Constrained2, Keep, Layers2, Placement, Refinement};
 
 use super::quads::Wanted;
-use crate::args::{CrossingsName, KeepName, LayerArgs, MeshArgs, Switches};
+use crate::args::{CrossingsName, KeepName, LayerArgs, MeshArgs, PlacementName, Switches};
 use crate::message::{Failure, note};
 
 /// Whether something that files can hold is written.
@@ -26,6 +26,7 @@ pub(super) struct Plan {
     pub(super) growth: Option<f64>,
     pub(super) max_vertices: Option<usize>,
     pub(super) keep: Keep,
+    placement: Placement,
     /// Boundary layers, on which segments ever.
     pub(super) layers: Option<Layers2>,
     /// Rounds of smoothing, and those of quadrilaterals.
@@ -87,6 +88,7 @@ impl Plan {
                 Some(KeepName::Constraints) => Keep::Constraints,
                 Some(KeepName::Nothing) | None => Keep::Nothing,
             },
+            placement: placement(args),
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
             smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
@@ -137,6 +139,7 @@ impl Plan {
                 1 => Keep::Border,
                 _ => Keep::Constraints,
             },
+            placement: placement(args),
             layers: layers(&args.layers),
             smooth: args.smooth.unwrap_or_default(),
             smooth_quads: args.smooth.unwrap_or(ROUNDS_FOR_QUADS),
@@ -169,6 +172,7 @@ impl Plan {
             .min_angle(self.min_angle)
             .smooth(self.smooth)
             .keep(self.keep)
+            .placement(self.placement)
             .conforming(self.traits.conforming);
         if let Some(area) = self.max_area {
             wanted = wanted.max_area(area);
@@ -194,6 +198,14 @@ impl Plan {
 
 /// Rounds of smoothing for quadrilaterals, if nothing is said: more change little.
 const ROUNDS_FOR_QUADS: usize = 5;
+
+/// Where new vertices go.
+fn placement(args: &MeshArgs) -> Placement {
+    match args.placement {
+        Some(PlacementName::Circumcenter) => Placement::Circumcenter,
+        Some(PlacementName::Offcenter) | None => Placement::OffCenter,
+    }
+}
 
 /// Which cells are to have four corners.
 fn quads(args: &MeshArgs) -> Wanted {

@@ -46,8 +46,8 @@ pub use moving::{Moving2, Step2};
 pub use orders::{Exchange, OrderCells2, OrderCircle2, OrderK2, OrderRegion2};
 pub use radial::NearestSites2;
 pub use refine::{
-    AllQuads2, Keep, LayerReport2, Layers2, Middle2, Quads2, Reason, Refined2, Refinement, RefinementReport2,
-    Shapes2, Unrefined2,
+    AllQuads2, Keep, LayerReport2, Layers2, Middle2, Placement, Quads2, Reason, Refined2, Refinement,
+    RefinementReport2, Shapes2, Unrefined2,
 };
 pub use region::Region2;
 pub use regular::{Jacobian2, Power2, Prescribed2, Regular2};

@@ -22,6 +22,17 @@ pub enum Keep {
     Constraints,
 }
 
+/// Where a new vertex goes for the sake of an angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Placement {
+    /// On the bisector of the shortest side, no farther than the angle asks for (Ungor, LATIN 2004): fewer triangles.
+    #[default]
+    OffCenter,
+    /// In the circumcenter (Ruppert, J. Algorithms 1995; Chew, SoCG 1993).
+    Circumcenter,
+}
+
 /// The criteria of a mesh, and how it is made.
 ///
 /// ```
@@ -50,6 +61,7 @@ pub struct Refinement<'a> {
     pub(super) growth: f64,
     pub(super) max_vertices: Option<usize>,
     pub(super) keep: Keep,
+    pub(super) placement: Placement,
     pub(super) conforming: bool,
     pub(super) smoothing: usize,
     pub(super) layers: Option<&'a Layers2>,
@@ -70,6 +82,7 @@ impl std::fmt::Debug for Refinement<'_> {
             .field("growth", &self.growth)
             .field("max_vertices", &self.max_vertices)
             .field("keep", &self.keep)
+            .field("placement", &self.placement)
             .field("conforming", &self.conforming)
             .field("smoothing", &self.smoothing)
             .field("layers", &self.layers)
@@ -99,6 +112,7 @@ impl<'a> Refinement<'a> {
             growth: GROWTH,
             max_vertices: None,
             keep: Keep::Nothing,
+            placement: Placement::OffCenter,
             conforming: false,
             smoothing: 0,
             layers: None,
@@ -259,6 +273,25 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn keep(self, keep: Keep) -> Self {
         Self { keep, ..self }
+    }
+
+    /// Where new vertices go for the sake of angles.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Placement, Refinement};
+    ///
+    /// let plate = [[0, 0], [100, 0], [100, 30], [50, 2], [0, 30]];
+    /// let count = |placement| {
+    ///     let mut c = Constrained2::from_parts(&plate, &[]).expect("points");
+    ///     let made = Refinement::new().min_angle(30.0).placement(placement).run(&mut c).expect("a mesh");
+    ///     assert!(made.report.smallest_angle >= 30.0);
+    ///     made.report.triangles
+    /// };
+    /// assert!(count(Placement::OffCenter) <= count(Placement::Circumcenter));
+    /// ```
+    #[must_use]
+    pub fn placement(self, placement: Placement) -> Self {
+        Self { placement, ..self }
     }
 
     /// No vertex inside of the diametral circle of a constraint, so that what is inside is a Delaunay triangulation (Ruppert).

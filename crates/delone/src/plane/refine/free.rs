@@ -33,9 +33,14 @@ impl Mesher<'_> {
             self.leave(task.corners, Reason::Budget);
             return;
         }
-        let reach = if is_for_size { f64::INFINITY } else { self.rules.reach };
+        let reach = if is_for_size || self.rules.in_circumcenters { f64::INFINITY } else { self.rules.reach };
         let center = shape.center(reach);
         let q = if center.iter().all(|x| x.is_finite()) { center } else { shape.center(self.rules.reach) };
+        self.mend_at(task, shape, q);
+    }
+
+    /// Mends a triangle with a vertex at a point, if that can be.
+    fn mend_at(&mut self, task: &Task, shape: &Shape, q: [f64; 2]) {
         match self.reach(shape.shortest, q) {
             Some(Met::Triangle(t)) => self.place(task, q, t, false),
             Some(Met::Constraint(e)) => self.split_first(task, &[e], false),
@@ -111,7 +116,8 @@ impl Mesher<'_> {
                 if is_last { is_flat(q, ends) } else { self.is_too_near(q, ends) }
             })
             .collect();
-        // Rounded, a point may be outside of the circle that it is to be the center of; it would mend nothing.
+        // Rounded, a point may be outside of the circle that it is to be the center of, and one far away is behind a constraint that the walk went
+        // around: it would mend nothing.
         let mends = mesh.is_marked(task.edge.triangle());
         let (nearest, square) = self.nearest(q);
         // The ends of the shortest edge made it necessary.
@@ -125,7 +131,11 @@ impl Mesher<'_> {
         if !near.is_empty() || !mends || reason == Reason::Cascade {
             self.abandon();
             if near.is_empty() {
-                self.leave(task.corners, reason);
+                let shape = Shape::of(self.layer, task.edge.triangle()).filter(|_| !mends && !is_last);
+                match shape.map(|shape| (shape.center(self.rules.reach), shape)) {
+                    Some((nearer, shape)) if nearer != q => self.mend_at(task, &shape, nearer),
+                    _ => self.leave(task.corners, reason),
+                }
             } else {
                 self.split_first(task, &near, is_last);
             }

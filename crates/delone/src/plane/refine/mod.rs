@@ -35,7 +35,7 @@ mod split;
 mod survey;
 
 pub use all_quads::AllQuads2;
-pub use criteria::{Keep, Refinement};
+pub use criteria::{Keep, Placement, Refinement};
 pub use layers::Layers2;
 pub use middles::Middle2;
 pub use quads::Quads2;
