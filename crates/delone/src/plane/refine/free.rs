@@ -7,6 +7,7 @@
 
 use delone_predicates::{Sign, orient2d};
 
+use super::criteria::Placement;
 use super::mesher::{Known, Mesher};
 use super::queue::{Fault, Task};
 use super::report::Reason;

@@ -41,8 +41,8 @@ pub(super) struct Rules<'a> {
     pub(super) lens: f64,
     /// Off-centers are at most so many times the length of the shortest edge from its middle.
     pub(super) reach: f64,
-    /// Whether vertices for the sake of angles are in circumcenters.
-    pub(super) in_circumcenters: bool,
+    /// Where vertices for the sake of angles are.
+    pub(super) placement: Placement,
     pub(super) conforming: bool,
     /// The square of the longest constraint.
     pub(super) longest_constraint: f64,
@@ -101,7 +101,7 @@ impl<'a> Rules<'a> {
             squared_cosine: if angle > 0.0 { angle.cos() * angle.cos() } else { 2.0 },
             lens: lens * lens,
             reach: SHORT * 0.5 / (0.5 * angle.max(NARROWEST.to_radians())).tan(),
-            in_circumcenters: wanted.placement == Placement::Circumcenter,
+            placement: wanted.placement,
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             most: wanted.max_vertices.map_or(room, |most| most.min(before.room)),
