@@ -34,7 +34,8 @@ impl Mesher<'_> {
             self.leave(task.corners, Reason::Budget);
             return;
         }
-        let reach = if is_for_size || self.rules.in_circumcenters { f64::INFINITY } else { self.rules.reach };
+        let is_far = is_for_size || self.rules.placement == Placement::Circumcenter;
+        let reach = if is_far { f64::INFINITY } else { self.rules.reach };
         let center = shape.center(reach);
         let q = if center.iter().all(|x| x.is_finite()) { center } else { shape.center(self.rules.reach) };
         self.mend_at(task, shape, q);
