@@ -13,6 +13,7 @@ use crate::points::survey as bounds;
 use crate::sorting;
 
 use super::super::Refinement;
+use super::super::arcs::Centers;
 use super::super::frontal::Frontal;
 use super::super::mesher::Mesher;
 use super::super::queue::Queue;
@@ -55,7 +56,7 @@ const EDGE_OF_FAN: f64 = 0.75;
 
 /// Finds where the chosen constraints are to be divided, under rows of some height in all: at fans as finely as these are.
 pub(super) fn divide_sides(
-    wanted: &Refinement,
+    (wanted, chords): (&Refinement, &Centers<VertexId>),
     c: &Constrained2,
     domains: &Domains2,
     sides: &mut [Side],
@@ -66,7 +67,7 @@ pub(super) fn divide_sides(
     let rules = Rules::new(wanted, &parts, &before);
     let layer = copy.layer();
     let bounds = bounds(&layer.points).0;
-    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &parts.origins);
+    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &parts.origins).along(chords);
     let place = |v: VertexId| mesher.layer.mesh.place(v);
     let whole = sides.iter().filter_map(|side| Some([place(side.ends[0])?, place(side.ends[1])?]));
     let chains = Chains::of(&mesher, &whole.collect::<Vec<_>>());

@@ -28,7 +28,7 @@ use super::mesher::Mesher;
 use super::queue::Queue;
 use super::report::LayerReport2;
 use super::rules::Rules;
-use super::{Refinement, origins};
+use super::{Refinement, arcs, origins};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::plane::constrained::{Constrained2, Domains2};
@@ -52,13 +52,14 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
     wanted.check_count(c, &domains)?;
     let heights = layers.heights();
     let mut sides = border::chosen(c, &domains, layers)?;
+    let chords = arcs::chords(c, wanted.arcs, &domains.origins)?;
     c.close(&domains)?;
     if layers.segments.is_none() {
         // Sides of the hull that are constraints only now.
         sides = border::chosen(c, &domains, layers)?;
     }
     let height = heights.last().copied().unwrap_or(0.0);
-    border::divide_sides(wanted, c, &domains, &mut sides, height)?;
+    border::divide_sides((wanted, &chords), c, &domains, &mut sides, height)?;
     let known = c.take_kept(&domains.kept);
     domains.kept.clear();
     let before = c.begin_refinement(&mut domains);
@@ -67,7 +68,7 @@ pub(super) fn grow(wanted: &Refinement, layers: &Layers2, c: &mut Constrained2) 
     let rules = Rules::new(wanted, &domains, &before);
     let layer = c.layer();
     let bounds = bounds(&layer.points).0;
-    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &domains.origins);
+    let mut mesher = Mesher::new(layer, &rules, Queue::new(&bounds, false), &domains.origins).along(&chords);
     let pieces: Vec<_> = sides.iter().flat_map(|side| border::put_on(&mut mesher, side)).collect();
     let chains = Chains::of(&mesher, &pieces);
     let mut plan = Plan::new(chains, heights);
