@@ -104,6 +104,7 @@ impl Failure {
             delone::Error::NoSuchPoint { .. } => "segments name points by index, from 0",
             delone::Error::Coordinate { .. } => "seeds of holes and regions are finite points",
             delone::Error::Seed { .. } => "move the seed into the hole or region, or choose another --fill",
+            delone::Error::Arc { .. } => "of two arcs with the same ends, divide one with a further vertex",
             delone::Error::KeptTriangle { .. } => {
                 "leave out segments that cross triangles, or make the triangles anew with --rebuild"
             }

@@ -88,3 +88,13 @@ fn arcs_over_one_chord_are_named() {
     let said = "segment 1 is no chord of an arc around its center: another arc has the same chord";
     place.fail("mesh lens.dxf --edge 0.2 -o m.obj", 1, said);
 }
+
+#[test]
+fn two_flat_arcs_with_the_same_ends_are_named() {
+    let place = Place::new();
+    place.file("lens.dxf", drawing("0 LWPOLYLINE 70 1 10 0 20 0 42 0.03 10 1 20 0 42 0.03"));
+    let run = place.run("mesh lens.dxf --fill even-odd -o m.ele");
+    let told = text(&run.stderr);
+    assert!(!run.status.success() && told.contains("another arc has the same chord"), "{told}");
+    assert!(told.contains("help: of two arcs with the same ends, divide one"), "{told}");
+}

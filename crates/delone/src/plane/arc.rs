@@ -126,6 +126,15 @@ impl Arc2 {
         [0, 1].map(|k| end[k] + (along * across[k] - inwards * u[k]))
     }
 
+    /// The point that is seen from the center in the direction of another one, rounded; none if that is beyond an end.
+    pub(super) fn towards(&self, p: [f64; 2]) -> Option<[f64; 2]> {
+        let chord = self.chord();
+        let w = from(chord.middle, p);
+        let [x, y] = [chord.along, chord.across].map(|u| w[0] * u[0] + w[1] * u[1]);
+        let x = x * (length([chord.half, chord.depth]) / length([x, y + chord.depth]));
+        (y > 0.0 && x.abs() < chord.half).then(|| chord.at(x))
+    }
+
     /// The height of the arc over its chord, rounded.
     pub fn sagitta(&self) -> f64 {
         self.chord().height(0.0)

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use delone::{Arc2, ArcProblem, Constrained2, Error, Fill, Refined2, Refinement, SegmentId, VertexId};
+use delone::{
+    Arc2, ArcProblem, Constrained2, Error, Fill, Layers2, Refined2, Refinement, SegmentId, VertexId,
+};
 use delone_oracle::exact;
 
 use super::judge::{Points, Segments, area, has_angles};
@@ -78,6 +80,16 @@ fn jacobian(n: &[[f64; 2]; 6], [l, m]: [f64; 2]) -> f64 {
     sum(&along_l, 0) * sum(&along_m, 1) - sum(&along_l, 1) * sum(&along_m, 0)
 }
 
+/// Vertices on arcs are on their circles.
+fn are_on_circles(drawing: &Drawing, c: &Constrained2, name: &str) {
+    for &(s, center) in &drawing.arcs {
+        let chain = c.chain(s).expect("there");
+        let radius = |v: VertexId| (c.point(v)[0] - center[0]).hypot(c.point(v)[1] - center[1]);
+        let r = radius(chain[0]);
+        assert!(chain.iter().all(|&v| (radius(v) - r).abs() < 1e-13 * r.max(1.0)), "{name}");
+    }
+}
+
 /// Judges, and gives the areas of straight and of curved triangles.
 fn judge(drawing: &Drawing, c: &Constrained2, refined: &Refined2, degrees: f64, name: &str) -> [f64; 2] {
     c.check().unwrap_or_else(|flaw| panic!("{name}: {flaw:?}"));
@@ -87,12 +99,7 @@ fn judge(drawing: &Drawing, c: &Constrained2, refined: &Refined2, degrees: f64, 
         assert!(exact::orient2d(corners[0], corners[1], corners[2]) > 0, "{name}");
         assert!(left.contains(&t) || has_angles(corners, degrees), "{name}: {corners:?}");
     }
-    for &(s, center) in &drawing.arcs {
-        let chain = c.chain(s).expect("there");
-        let radius = |v: VertexId| (c.point(v)[0] - center[0]).hypot(c.point(v)[1] - center[1]);
-        let r = radius(chain[0]);
-        assert!(chain.iter().all(|&v| (radius(v) - r).abs() < 1e-13 * r.max(1.0)), "{name}");
-    }
+    are_on_circles(drawing, c, name);
     let middles = refined.arc_middles(c, &drawing.arcs).expect("arcs");
     let on_arcs: BTreeMap<_, _> = middles.iter().copied().collect();
     let count: usize = drawing.arcs.iter().map(|(s, _)| c.chain(*s).expect("there").len() - 1).sum();
@@ -216,6 +223,49 @@ fn arcs_in_the_way_end() {
             assert!(refined.report.triangles > 10 && left < 50, "{name}: {left}");
             refined.arc_middles(&c, &drawing.arcs).expect("arcs");
         }
+    }
+}
+
+/// Between the ends of two arcs that are nearer to each other than their chords are to them.
+#[test]
+fn thin_pieces_of_rings_have_their_area() {
+    for inner in [0.999, 0.9985] {
+        let mut drawing = Drawing::default();
+        let ends = [[1.0, 0.0], [0.0, 1.0]];
+        let inside = ends.map(|p| p.map(|x| inner * x));
+        drawing.line(inside[0], ends[0]);
+        drawing.arc(ends, [0.0, 0.0]);
+        drawing.line(ends[1], inside[1]);
+        drawing.arc([inside[1], inside[0]], [0.0, 0.0]);
+        let (c, refined) = drawing.refined(Refinement::new().min_angle(10.0));
+        c.check().expect("a triangulation");
+        are_on_circles(&drawing, &c, "thin");
+        let pieces = drawing.arcs.iter().map(|(s, _)| c.chain(*s).expect("there").len() - 1);
+        assert!(pieces.min() > Some(1), "{inner}: all chords are divided");
+        let (found, expected) =
+            (area(&c, |t| refined.domains.is_inside(t)), 0.25 * PI * (1.0 - inner * inner));
+        assert!((found / expected - 1.0).abs() < 0.5, "{inner}: {found} {expected}");
+    }
+}
+
+/// The vertices of walls are on the arcs, and no row follows an arc that it ends at.
+#[test]
+fn layers_are_on_arcs() {
+    let mut ring = Drawing::default();
+    ring.circle([0.0, 0.0], 2.0);
+    ring.circle([0.0, 0.0], 1.0);
+    let mut sector = Drawing::default();
+    sector.line([0.0, 0.0], [2.0, 0.0]);
+    sector.arc([[2.0, 0.0], [0.0, 2.0]], [0.0, 0.0]);
+    sector.line([0.0, 2.0], [0.0, 0.0]);
+    let lines = [SegmentId::new(0), SegmentId::new(sector.segments.len() - 1)];
+    let all = Layers2::new(0.01, 5);
+    let some = Layers2::new(0.05, 3).on(lines.to_vec());
+    for (name, drawing, layers) in [("ring", ring, all), ("sector", sector, some)] {
+        let (c, refined) = drawing.refined(Refinement::new().edge(0.2).layers(&layers));
+        c.check().expect("a triangulation");
+        assert!(refined.report.layers.rows > 0 && refined.report.on_constraints > 0, "{name}");
+        are_on_circles(&drawing, &c, name);
     }
 }
 

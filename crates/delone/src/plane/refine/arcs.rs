@@ -10,7 +10,7 @@
 
 use std::collections::BTreeMap;
 
-use delone_predicates::lexicographic;
+use delone_predicates::{lexicographic, orient2d};
 
 use super::free::Met;
 use super::mesher::Mesher;
@@ -81,6 +81,16 @@ impl Mesher<'_> {
         }
         let center = *self.arcs.get(&sorted(self.input_of(ends)))?;
         Some(Arc2::of(ends.map(|v| self.point(v)), center))
+    }
+
+    /// The point of an arc that is under the far corner of the triangle there: between two arcs the middle may be in another triangle.
+    pub(super) fn under_tip(&self, e: EdgeId) -> Option<[f64; 2]> {
+        let arc = self.arc(self.ends(e))?;
+        let mesh = &self.layer.mesh;
+        let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        let side = if orient2d(a, b, arc.center()).is_positive() { mesh.twin(e) } else { e };
+        let tip = Some(mesh.tip(side)).filter(|tip| !tip.is_ghost())?;
+        arc.towards(self.point(tip)).filter(|&q| self.is_clear(e, q))
     }
 
     /// Where the chord of another arc is between a constraint and its arc, notes that this one is split first, once.

@@ -37,10 +37,11 @@ impl Mesher<'_> {
         let wanted = self.where_to_split(e, meets);
         let e = self.make_way(e, wanted);
         let first = Some(wanted).filter(|&q| self.is_clear(e, q));
-        let Some(q) = first.or_else(|| around(wanted).into_iter().find(|&q| self.is_clear(e, q))) else {
-            if self.split_arc_between(e, wanted) {
-                return;
-            }
+        let near = first.or_else(|| around(wanted).into_iter().find(|&q| self.is_clear(e, q)));
+        if near.is_none() && self.split_arc_between(e, wanted) {
+            return;
+        }
+        let Some(q) = near.or_else(|| self.under_tip(e)) else {
             self.refuse(e, Reason::Precision);
             return;
         };
@@ -198,7 +199,7 @@ impl Mesher<'_> {
 
     /// Whether a point can split a constraint: it is strictly inside of the triangle that it is in, and seen from the far corner
     /// of the other one where the mesh is there too. Outside of the mesh there may be what is as thin as a rounding error.
-    fn is_clear(&self, e: EdgeId, q: [f64; 2]) -> bool {
+    pub(super) fn is_clear(&self, e: EdgeId, q: [f64; 2]) -> bool {
         let mesh = &self.layer.mesh;
         let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
         let is_between = |k: usize| q[k] >= a[k].min(b[k]) && q[k] <= a[k].max(b[k]);

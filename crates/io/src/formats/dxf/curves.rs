@@ -14,6 +14,8 @@ pub(super) struct Path {
     pub(super) centers: Vec<(usize, [f64; 3])>,
     /// How many arcs these are.
     pub(super) arcs: usize,
+    /// How many are chords alone, because the numbers of their circles are too large or too small.
+    pub(super) lost: usize,
 }
 
 /// The bulge of a quarter of a turn.
@@ -31,10 +33,16 @@ impl Path {
         for (i, &(from, bulge)) in vertices.iter().enumerate() {
             path.points.push(from);
             let next = vertices.get(i + 1).or(vertices.first().filter(|_| is_closed));
-            if let Some(&(to, _)) = next.filter(|_| bulge != 0.0 && bulge.is_finite()) {
+            // One that is almost nothing is a straight line.
+            let is_bulge = bulge.is_nan() || bulge.abs() >= f64::MIN_POSITIVE;
+            if let Some(&(to, _)) = next.filter(|next| is_bulge && next.0 != from) {
                 let before = path.centers.len();
-                path.bulge(from, to, bulge);
-                path.arcs += usize::from(path.centers.len() > before);
+                if bulge.is_finite() {
+                    path.bulge(from, to, bulge);
+                }
+                let is_arc = path.centers.len() > before;
+                path.arcs += usize::from(is_arc);
+                path.lost += usize::from(!is_arc);
             }
         }
         path

@@ -216,13 +216,14 @@ impl Entity {
             }
             "INSERT" => {
                 let counts = COUNTS.map(|code| self.number(code).map_or(1, |count| count as u32).max(1));
+                let steps = STEPS.map(|code| self.number(code).unwrap_or_default());
                 let scale = [0, 1, 2].map(|k| self.number(SCALE + k).unwrap_or(1.0));
                 let insert = Insert {
                     at: turned(self.corner(0).ok_or_else(short)?),
                     scale: turned(scale),
                     angle: sign * self.number(ANGLE).unwrap_or_default(),
                     counts,
-                    steps: STEPS.map(|code| self.number(code).unwrap_or_default()),
+                    steps: [sign * steps[0], steps[1]],
                     name: self.name,
                 };
                 Ok(Item::Insert { layer: self.layer, insert })

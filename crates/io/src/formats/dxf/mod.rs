@@ -54,9 +54,10 @@ struct Drawing {
     polyline: Option<Entity>,
     /// How many entities of each kind were left out, and why.
     left_out: BTreeMap<String, usize>,
-    /// Arcs, and how many of them are not parts of circles: of blocks that are stretched.
+    /// Arcs, and how many of them are not parts of circles: of blocks that are stretched, and with numbers that are no circle.
     arcs: usize,
     stretched: usize,
+    lost: usize,
 }
 
 /// How a part of a drawing is read.
@@ -88,6 +89,7 @@ pub(crate) fn read(
         left_out: BTreeMap::new(),
         arcs: 0,
         stretched: 0,
+        lost: 0,
     };
     drawing.shapes.attribute("layer", Value::Null);
     let mut pairs = Pairs { lines: Lines::new(source) };
@@ -137,6 +139,10 @@ pub(crate) fn read(
     if drawing.stretched > 0 {
         shapes.losses.push(format!("{} arcs are stretched by blocks, and chords alone", drawing.stretched));
     }
+    if drawing.lost > 0 {
+        let why = "their bulges are too large, or no numbers";
+        shapes.losses.push(format!("{} arcs of polylines are straight: {why}", drawing.lost));
+    }
     if !drawing.left_out.is_empty() {
         let kinds: Vec<String> =
             drawing.left_out.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
@@ -185,12 +191,13 @@ impl Drawing {
             block.items.push(item);
             return Ok(());
         }
-        let Self { shapes, blocks, left_out, arcs, stretched, .. } = self;
+        let Self { shapes, blocks, left_out, arcs, stretched, lost, .. } = self;
         let closed_are_polygons = self.closed_are_polygons;
         blocks.expand(&item, &mut |layer, item, path| match item {
             None => *left_out.entry("INSERT of what is no block".to_owned()).or_default() += 1,
             Some(item) => {
                 *arcs += path.arcs;
+                *lost += path.lost;
                 *stretched += if path.centers.is_empty() { path.arcs } else { 0 };
                 draw(shapes, layer, item, path, closed_are_polygons);
             }

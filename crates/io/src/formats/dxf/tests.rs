@@ -157,6 +157,16 @@ fn arcs_are_chords_with_centers() {
 }
 
 #[test]
+fn bulges_that_are_none_are_told() {
+    for (bulge, count) in [("nan", 1), ("inf", 1), ("-1e300", 1), ("1e-320", 0), ("0", 0), ("1e-9", 0)] {
+        let (graph, _) = arcs("", &format!("LWPOLYLINE 10=0 20=0 42={bulge} 10=1 20=0 10=2 20=2"));
+        let told =
+            graph.cloud.losses.iter().filter(|loss| loss.starts_with("1 arcs of polylines are straight"));
+        assert_eq!(told.count(), count, "{bulge}: {:?}", graph.cloud.losses);
+    }
+}
+
+#[test]
 fn blocks_are_where_they_are_inserted() {
     let blocks = "BLOCK 8=0 2=Arm 10=1 20=0 30=0 LINE 8=0 10=1 20=0 11=3 21=0 POINT 8=own 10=1 20=0 ENDBLK 8=0 \
         BLOCK 2=pair 10=0 20=0 INSERT 8=0 2=arm 10=10 20=0 50=90 ENDBLK";
@@ -167,6 +177,11 @@ fn blocks_are_where_they_are_inserted() {
     assert_eq!(layers(&graph)[..3], ["\"top\"", "\"top\"", "\"own\""]);
     let starts: Vec<_> = graph.cloud.xy[3..].iter().step_by(3).copied().collect();
     assert_eq!(starts, [[0.0, 50.0], [5.0, 50.0], [0.0, 57.0], [5.0, 57.0]]);
+    // Seen from below, columns go to the left.
+    let below = "INSERT 2=arm 10=1 20=50 70=2 71=2 44=5 45=7 230=-1";
+    let xy = read(drawing(blocks, below)).expect("a drawing").cloud.xy;
+    let starts: Vec<_> = xy.iter().step_by(3).copied().collect();
+    assert_eq!(starts, [[-1.0, 50.0], [-6.0, 50.0], [-1.0, 57.0], [-6.0, 57.0]]);
     assert!(graph.cloud.losses[0].contains("1 INSERT of what is no block"), "{:?}", graph.cloud.losses);
 }
 

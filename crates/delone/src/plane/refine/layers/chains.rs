@@ -55,6 +55,11 @@ fn neighbors(mesh: &Mesh2, e: EdgeId) -> [EdgeId; 2] {
     [next, previous]
 }
 
+/// Whether rows may follow a constraint: it may be split, and is straight.
+fn may_follow(mesher: &Mesher, e: EdgeId) -> bool {
+    mesher.refusal(e).is_none() && mesher.arc(mesher.ends(e)).is_none()
+}
+
 impl Chains {
     /// Of pieces of constraints, in an order of geometry.
     pub(super) fn of(mesher: &Mesher, pieces: &[[Place; 2]]) -> Self {
@@ -83,7 +88,7 @@ impl Chains {
             let other = mesh.tail(previous);
             let beside = before[k].is_none().then_some(other);
             let beyond = [place(other), place(mesh.head(e))];
-            let may_follow = mesher.refusal(previous).is_none();
+            let may_follow = may_follow(mesher, previous);
             let sides = [before[k], Some(k)];
             chains.wedges.push(Wedge { base, at: place(base), sides, beside, may_follow, beyond });
         }
@@ -98,7 +103,7 @@ impl Chains {
                     at: place(head),
                     sides: [Some(k), None],
                     beside: Some(other),
-                    may_follow: mesher.refusal(next).is_none(),
+                    may_follow: may_follow(mesher, next),
                     beyond,
                 });
                 chains.wedges.len() - 1
