@@ -97,6 +97,19 @@ def test_what_is_no_arc_is_named(centers, error, words) -> None:
         delone.mesh(POINTS, SEGMENTS, centers=centers)
 
 
+def test_flat_arcs_over_other_segments_bound_areas() -> None:
+    turn = 0.2
+    radius = 0.5 / math.sin(turn / 2)
+    cap = radius**2 * (turn - math.sin(turn)) / 2
+    deep = radius * math.cos(turn / 2)
+    below, above, straight = [0.5, -deep], [0.5, deep], [np.nan, np.nan]
+    for centers, expected in (([below, straight], cap), ([above, below], 2 * cap)):
+        made = delone.mesh([[0, 0], [1, 0]], [[0, 1], [1, 0]], centers=centers, edge=0.02)
+        made.check()
+        assert abs(made.area / expected - 1) < 0.01
+        assert set(made.segment_origin.tolist()) == {0, 1}
+
+
 def test_crossings_name_given_segments() -> None:
     points = [*POINTS, [-1.5, 0.1], [1.5, 0.3]]
     with pytest.raises(delone.CrossingError) as caught:

@@ -80,21 +80,18 @@ fn lines_bound_where_there_are_no_polygons() {
     assert_eq!(triangles("--fill even-odd"), triangles("--fill nonzero") - 30);
 }
 
+/// A flat arc over a line, and two over one chord: they bound what is between.
 #[test]
-fn arcs_over_one_chord_are_named() {
+fn flat_arcs_over_other_segments_bound_areas() {
     let place = Place::new();
-    let two = "0 LWPOLYLINE 70 1 10 0 20 0 42 0.01 10 1 20 0 42 0.01";
-    place.file("lens.dxf", drawing(two));
-    let said = "segment 1 is no chord of an arc around its center: another arc has the same chord";
-    place.fail("mesh lens.dxf --edge 0.2 -o m.obj", 1, said);
-}
-
-#[test]
-fn two_flat_arcs_with_the_same_ends_are_named() {
-    let place = Place::new();
-    place.file("lens.dxf", drawing("0 LWPOLYLINE 70 1 10 0 20 0 42 0.03 10 1 20 0 42 0.03"));
-    let run = place.run("mesh lens.dxf --fill even-odd -o m.ele");
-    let told = text(&run.stderr);
-    assert!(!run.status.success() && told.contains("another arc has the same chord"), "{told}");
-    assert!(told.contains("help: of two arcs with the same ends, divide one"), "{told}");
+    let (bulge, turn) = (0.03f64, 4.0 * 0.03f64.atan());
+    let radius = 0.5 / (turn / 2.0).sin();
+    let cap = radius * radius * (turn - turn.sin()) / 2.0;
+    for (second, expected) in [(0.0, cap), (bulge, 2.0 * cap)] {
+        let entities = format!("0 LWPOLYLINE 70 1 10 0 20 0 42 {bulge} 10 1 20 0 42 {second}");
+        place.file("cap.dxf", drawing(&entities));
+        place.succeed("-q mesh cap.dxf --fill even-odd --edge 0.02 -o m.node -o m.ele -o m.edge");
+        let area = mesh(&place, "m").area();
+        assert!((area / expected - 1.0).abs() < 0.01, "{second}: {area}, not {expected}");
+    }
 }

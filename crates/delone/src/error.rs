@@ -306,6 +306,9 @@ pub enum ArcProblem {
     /// Another arc has the same chord.
     #[error("another arc has the same chord")]
     Repeated,
+    /// A straight segment has the same chord.
+    #[error("a straight segment has the same chord")]
+    Straight,
     /// There is no such segment.
     #[error("there is no such segment")]
     NoSegment,

@@ -1,6 +1,6 @@
 //! Segments that are chords of arcs: divided before there is a mesh, and known while it is refined.
 
-use delone::{Arc2, ArcProblem, Error, SegmentId};
+use delone::{Arc2, ArcProblem, Error, SegmentId, arcs_over_shared_chords};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -37,9 +37,17 @@ pub fn divide_arcs<'py>(
 ) -> PyResult<Divided<'py>> {
     let mut points: Vec<[f64; 2]> = coordinates(&points)?;
     let centers: Vec<[f64; 2]> = coordinates(&centers)?;
+    let ends: Vec<[usize; 2]> = pairs(&segments)?.iter().map(|ends| ends.map(index)).collect();
+    let curved = centers.iter().enumerate().filter(|(_, center)| center.iter().all(|x| x.is_finite()));
+    let curved: Vec<(usize, [f64; 2])> = curved
+        .take_while(|(segment, _)| *segment < ends.len())
+        .map(|(segment, center)| (segment, *center))
+        .collect();
+    let shared = arcs_over_shared_chords(&points, &ends, &curved);
+    let mut is_shared = vec![false; ends.len()];
+    shared.into_iter().for_each(|k| is_shared[curved[k].0] = true);
     let (mut pieces, mut origins, mut rows, mut known) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (segment, (ends, center)) in pairs(&segments)?.iter().zip(centers).enumerate() {
-        let [a, b] = ends.map(index);
+    for (segment, ([a, b], center)) in ends.into_iter().zip(centers).enumerate() {
         if center.iter().all(|x| x.is_nan()) {
             origins.push(segment as i64);
             pieces.extend([a, b]);
@@ -50,7 +58,9 @@ pub fn divide_arcs<'py>(
             _ => python_error(Error::Arc { segment, problem: ArcProblem::NotFinite }),
         })?;
         let mut at = a;
-        for point in arc.inner_points() {
+        let inner = arc.inner_points();
+        let middle = Some(arc.middle()).filter(|_| is_shared[segment] && inner.is_empty());
+        for point in inner.into_iter().chain(middle) {
             pieces.extend([at, points.len()]);
             at = points.len();
             points.push(point);

@@ -8,6 +8,7 @@
 use delone_predicates::{Sign, orient2d};
 
 use crate::error::{ArcProblem, Error};
+use crate::sorting;
 
 /// Halvings of an arc until it is divided along its chord: half a turn is in pieces of less than three degrees then, and parts of their angles are
 /// those of their chords up to one in ten thousand.
@@ -165,6 +166,52 @@ impl Arc2 {
         points.push(middle);
         Self { ends: [middle, b], ..*self }.divide(points);
     }
+}
+
+/// Which arcs, by their number in the list, have their chord in common with another segment that is not the same arc. Such an arc must be
+/// divided, or one edge would be both. Arcs are segments by their index, with the centers of their circles.
+///
+/// Cost: O(m log m) for m segments.
+///
+/// # Panics
+///
+/// If there is no such point or segment.
+///
+/// ```
+/// use delone::arcs_over_shared_chords;
+///
+/// // A cap: a flat arc, and the straight line below.
+/// let points = [[0.0, 0.0], [1.0, 0.0]];
+/// let arcs = [(0, [0.5, 9.0])];
+/// assert_eq!(arcs_over_shared_chords(&points, &[[0, 1], [1, 0]], &arcs), [0]);
+/// assert!(arcs_over_shared_chords(&points, &[[0, 1]], &arcs).is_empty());
+/// ```
+pub fn arcs_over_shared_chords(
+    points: &[[f64; 2]],
+    segments: &[[usize; 2]],
+    arcs: &[(usize, [f64; 2])],
+) -> Vec<usize> {
+    let mut of_segment: Vec<Option<usize>> = vec![None; segments.len()];
+    arcs.iter().enumerate().for_each(|(k, arc)| of_segment[arc.0] = Some(k));
+    // Zero has no sign here.
+    let place = |i: usize| points[i].map(|x| (x + 0.0).to_bits());
+    let chord = |(ends, arc): (&[usize; 2], Option<usize>)| {
+        let [a, b] = ends.map(place);
+        ([a.min(b), a.max(b)], arc)
+    };
+    let mut chords: Vec<_> = segments.iter().zip(of_segment).map(chord).collect();
+    sorting::by_key(&mut chords, |chord| *chord);
+    let arc = |k: usize| Arc2::of(segments[arcs[k].0].map(|i| points[i]), arcs[k].1);
+    let mut shared = Vec::new();
+    for same in chords.chunk_by(|one, other| one.0 == other.0) {
+        let own: Vec<usize> = same.iter().filter_map(|chord| chord.1).collect();
+        let Some(&first) = own.first() else { continue };
+        if own.len() < same.len() || own.iter().any(|&k| !arc(first).is_nearly(&arc(k))) {
+            shared.extend(own);
+        }
+    }
+    sorting::by_key(&mut shared, |k| *k);
+    shared
 }
 
 impl Chord {

@@ -29,7 +29,7 @@ mod triangulation;
 pub(crate) mod verify;
 mod voronoi;
 
-pub use arc::Arc2;
+pub use arc::{Arc2, arcs_over_shared_chords};
 pub use constrained::{
     Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Part2,
     PolygonTriangles2, Polygons2, RegionSeed2, Seeds2, SegmentEnds, SegmentId,

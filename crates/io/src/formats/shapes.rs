@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use delone::{Arc2, arcs_over_shared_chords};
+
 use crate::{Cloud, Crs, Error, Features, Graph, GraphRing, Rings, Table, Value};
 
 /// The purpose that geometries are read for.
@@ -211,8 +213,60 @@ impl Shapes {
         cloud
     }
 
+    /// Divides arcs in the middle whose chord is also another segment.
+    fn divide_shared_arcs(&mut self) {
+        if self.centers.is_empty() {
+            return;
+        }
+        let mut segments = Vec::new();
+        for part in &self.parts {
+            let Range { start, end } = part.positions;
+            segments.extend((start..end).zip(start + 1..end).map(|(i, j)| [i, j]));
+            if matches!(part.kind, Kind::Ring { .. }) && end > start + 1 {
+                segments.push([end - 1, start]);
+            }
+        }
+        let of = |first: usize| segments.binary_search_by_key(&first, |ends| ends[0]).ok();
+        let arcs: Vec<_> =
+            self.centers.iter().filter_map(|&(first, center)| Some((of(first)?, center))).collect();
+        let shared = arcs_over_shared_chords(&self.xy, &segments, &arcs);
+        let middle = |k: usize| {
+            let (ends, center) = (segments[arcs[k].0], arcs[k].1);
+            let arc = Arc2::new(ends.map(|i| self.xy[i]), center).ok()?;
+            let z = self.z[ends[0]].zip(self.z[ends[1]]).map(|(z, w)| z.midpoint(w));
+            Some((ends[0], arc.middle(), z, center))
+        };
+        let middles: Vec<_> = shared.into_iter().filter_map(middle).collect();
+        let before = |i: usize| middles.partition_point(|middle| middle.0 < i);
+        let mut pending = middles.iter().peekable();
+        let (mut xy, mut z, mut rows) = (Vec::new(), Vec::new(), Vec::new());
+        for i in 0..self.xy.len() {
+            xy.push(self.xy[i]);
+            z.push(self.z[i]);
+            rows.extend(self.rows.get(i));
+            if let Some(&(first, place, height, center)) = pending.next_if(|middle| middle.0 == i) {
+                xy.push(place);
+                z.push(height);
+                rows.extend(self.rows.get(i));
+                self.centers.push((first, center));
+            }
+        }
+        for part in &mut self.parts {
+            let Range { start, end } = part.positions;
+            part.positions = start + before(start)..end + before(end);
+        }
+        // Of the two halves of an arc the first is known by its position, the second follows.
+        let count = self.centers.len() - middles.len();
+        for (k, known) in self.centers.iter_mut().enumerate() {
+            known.0 += before(known.0) + usize::from(k >= count);
+        }
+        self.centers.sort_unstable_by_key(|known| known.0);
+        (self.xy, self.z, self.rows) = (xy, z, rows);
+    }
+
     /// The positions with the segments between them: those of rings are borders.
     pub(crate) fn graph(mut self) -> Result<Graph, Error> {
+        self.divide_shared_arcs();
         let mut graph = Graph::default();
         let mut centers = std::mem::take(&mut self.centers).into_iter().peekable();
         for part in std::mem::take(&mut self.parts) {

@@ -8,7 +8,7 @@
 //!
 //! Cost: O(log a) for a look at one of a arcs; another round for each time that arcs are halved.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use delone_predicates::{lexicographic, orient2d};
 
@@ -38,6 +38,7 @@ pub(super) fn chords(
     origins: &[Origin],
 ) -> Result<Centers<VertexId>, Error> {
     let mut chords = Centers::new();
+    let curved: BTreeSet<SegmentId> = arcs.iter().map(|arc| arc.0).collect();
     for &(s, center) in arcs {
         let flawed = |problem| Error::Arc { segment: s.index(), problem };
         let chain = c.chain(s).ok_or(flawed(ArcProblem::NoSegment))?;
@@ -46,6 +47,11 @@ pub(super) fn chords(
             Error::Arc { problem, .. } => flawed(problem),
             other => other,
         })?;
+        let is_straight = |e: EdgeId| c.covering(e).iter().any(|one| !curved.contains(&one.segment));
+        let edge = |v: VertexId, w: VertexId| c.mesh().star(v).find(|&e| c.mesh().destination(e) == w);
+        if chain.windows(2).filter_map(|link| edge(link[0], link[1])).any(is_straight) {
+            return Err(flawed(ArcProblem::Straight));
+        }
         let is_input = |v: &VertexId| origins.get(v.index()).is_none_or(|origin| origin.on == [*v; 2]);
         let chain: Vec<VertexId> = chain.into_iter().filter(is_input).collect();
         for link in chain.windows(2) {

@@ -157,6 +157,29 @@ fn arcs_are_chords_with_centers() {
 }
 
 #[test]
+fn arcs_over_other_segments_are_divided() {
+    // A flat arc and the line below it, as one polyline and as two; a lens; the same arc twice; a line beside.
+    for (entities, segments, count) in [
+        ("LWPOLYLINE 70=1 10=0 20=0 42=0.02 10=1 20=0", 3, 2),
+        ("LINE 10=1 20=0 11=0 21=0 LWPOLYLINE 10=0 20=0 42=0.02 10=1 20=0 LINE 10=5 20=5 11=6 21=5", 4, 2),
+        ("LWPOLYLINE 70=1 10=0 20=0 42=0.02 10=1 20=0 42=0.02", 4, 4),
+        ("LWPOLYLINE 10=0 20=0 42=0.02 10=1 20=0 LWPOLYLINE 10=1 20=0 42=-0.02 10=0 20=0", 2, 2),
+        ("LWPOLYLINE 10=0 20=0 42=0.02 10=1 20=0 LINE 10=1 20=0 11=2 21=0", 2, 1),
+    ] {
+        let (graph, radii) = arcs("", entities);
+        assert_eq!((graph.segments.len(), graph.arcs.len()), (segments, count), "{entities}");
+        assert!(radii.iter().all(|r| (r - radii[0]).abs() < 1e-13), "{entities}: {radii:?}");
+        let at = |i: usize| graph.cloud.xy[i];
+        let is_chain = graph.arcs.iter().all(|(s, _)| {
+            let [p, q] = graph.segments[*s].map(at);
+            count == 1 || ((p[0] - q[0]).abs() - if segments == 2 { 1.0 } else { 0.5 }).abs() < 1e-15
+        });
+        assert!(is_chain, "{entities}: {:?}", graph.cloud.xy);
+        assert!(graph.cloud.features.row(graph.cloud.xy.len() - 1).is_some(), "{entities}");
+    }
+}
+
+#[test]
 fn bulges_that_are_none_are_told() {
     for (bulge, count) in [("nan", 1), ("inf", 1), ("-1e300", 1), ("1e-320", 0), ("0", 0), ("1e-9", 0)] {
         let (graph, _) = arcs("", &format!("LWPOLYLINE 10=0 20=0 42={bulge} 10=1 20=0 10=2 20=2"));
