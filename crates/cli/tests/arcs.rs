@@ -23,7 +23,10 @@ fn meshes_follow_arcs() {
     let run = place
         .run("mesh plate.dxf --fill even-odd --edge 0.2 --min-angle 28 --check -o m.node -o m.ele -o m.edge");
     assert!(run.status.success(), "{}", text(&run.stderr));
-    assert!(text(&run.stderr).contains("1 arcs and circles are chords of at most 11.25 degrees"));
+    assert!(
+        text(&run.stderr)
+            .contains("arcs and circles, as chords of at most 11.25 degrees that meshes follow: 1")
+    );
     let m = mesh(&place, "m");
     assert!((m.area() / (16.0 - std::f64::consts::PI) - 1.0).abs() < 0.003, "{}", m.area());
     let (on, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) = m

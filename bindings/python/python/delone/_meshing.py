@@ -54,7 +54,8 @@ def mesh(
         The ends of segments, by indices of points. They may pass through points, overlap and repeat each other.
     centers : array_like of floats, shape (m, 2), optional
         For each segment that is the chord of an arc the center of its circle, for others NaN. The arc is the shorter way around
-        the center. New points are on it, some of them at most 11.25 degrees apart, and so are nodes of `Mesh.second_order`.
+        the center. It is divided into equal parts of at most 11.25 degrees; new points are on it, and so are nodes of
+        `Mesh.second_order`.
     triangles : array_like of integers, shape (t, 3), optional
         A mesh that there is, by indices of points. Its triangles stay, Delaunay or not, until a new vertex comes near, but where
         `edge` is given. The inside is what they cover, and their border is a segment each. `parents` tells in which of them each

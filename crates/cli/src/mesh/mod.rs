@@ -100,7 +100,9 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let cells = Cells::of(&made, plan.traits.quads, plan.smooth_quads)?;
     cells.tell_left(quiet);
     if report.triangles == 0 && c.triangle_count() > 0 {
-        let why = if made.graph.holes.is_empty() {
+        let why = if c.report().repeated > 0 {
+            "no segments close, and borders that are there twice cancel"
+        } else if made.graph.holes.is_empty() {
             "no segments close"
         } else {
             "no segments close, or holes take all"

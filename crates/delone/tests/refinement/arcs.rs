@@ -283,6 +283,7 @@ fn what_is_no_arc_is_named() {
     let around = [[0, 1], [1, 2], [2, 0], [1, 0]];
     let flaw = |segment, problem| Err(Error::Arc { segment, problem });
     assert_eq!(refused(&around, &[(0, [2.0, 0.0])]), flaw(0, ArcProblem::HalfTurn));
+    assert_eq!(refused(&around, &[(0, [2.0, 2.0])]), flaw(0, ArcProblem::Straight));
     assert_eq!(refused(&around, &[(1, [f64::NAN, 0.0])]), flaw(1, ArcProblem::NotFinite));
     assert_eq!(refused(&around, &[(9, [0.0, 0.0])]), flaw(9, ArcProblem::NoSegment));
     assert_eq!(refused(&around, &[(0, [2.0, 2.0]), (3, [2.0, 3.0])]), flaw(3, ArcProblem::Repeated));

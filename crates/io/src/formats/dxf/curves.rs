@@ -70,6 +70,9 @@ impl Path {
         if angles.is_some() {
             path.points.push(at(count));
         }
+        if path.centers.is_empty() {
+            (path.arcs, path.lost) = (0, 1);
+        }
         path
     }
 
@@ -94,6 +97,9 @@ impl Path {
     fn chords(&mut self, from: [f64; 3], to: [f64; 3], center: [f64; 3]) {
         let flat = |[x, y, _]: [f64; 3]| [x, y];
         let Ok(arc) = Arc2::new([from, to].map(flat), flat(center)) else { return };
+        if !arc.middle().iter().all(|x| x.is_finite()) {
+            return;
+        }
         let start = self.points.len() - 1;
         self.points.extend(arc.inner_points().into_iter().map(|[x, y]| [x, y, from[2]]));
         self.centers.extend((start..self.points.len()).map(|segment| (segment, center)));

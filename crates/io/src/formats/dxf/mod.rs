@@ -132,16 +132,15 @@ pub(crate) fn read(
     drawing.end_polyline()?;
     let mut shapes = drawing.shapes;
     if drawing.arcs > 0 {
-        shapes
-            .remarks
-            .push(format!("{} arcs and circles are chords of at most 11.25 degrees here", drawing.arcs));
+        let what = "arcs and circles, as chords of at most 11.25 degrees that meshes follow";
+        shapes.remarks.push(format!("{what}: {}", drawing.arcs));
     }
     if drawing.stretched > 0 {
-        shapes.losses.push(format!("{} arcs are stretched by blocks, and chords alone", drawing.stretched));
+        shapes.losses.push(format!("arcs that blocks stretch are chords alone: {}", drawing.stretched));
     }
     if drawing.lost > 0 {
-        let why = "their bulges are too large, or no numbers";
-        shapes.losses.push(format!("{} arcs of polylines are straight: {why}", drawing.lost));
+        let why = "whose numbers are too large, too small or none";
+        shapes.losses.push(format!("arcs {why} are straight: {}", drawing.lost));
     }
     if !drawing.left_out.is_empty() {
         let kinds: Vec<String> =

@@ -146,7 +146,7 @@ fn arcs_are_chords_with_centers() {
     assert!(radii.iter().all(|r| (r - 2.0).abs() < 1e-14));
     let (graph, _) = arcs(block, "INSERT 2=b 10=10 20=0 41=2 42=3");
     assert!(graph.arcs.is_empty() && graph.cloud.xy.len() == 9);
-    assert_eq!(graph.cloud.losses, ["1 arcs are stretched by blocks, and chords alone"]);
+    assert_eq!(graph.cloud.losses, ["arcs that blocks stretch are chords alone: 1"]);
     // A line before shifts the numbers of segments.
     let (graph, _) = arcs("", "LINE 10=9 20=9 11=8 21=8 CIRCLE 10=0 20=0 40=1 POINT 10=7 20=7");
     assert_eq!((graph.arcs[0].0, graph.arcs[31].0, graph.segments.len()), (1, 32, 33));
@@ -180,11 +180,19 @@ fn arcs_over_other_segments_are_divided() {
 }
 
 #[test]
+fn circles_out_of_range_are_told() {
+    for circle in ["10=0 20=0 40=1e200", "10=0 20=0 40=1e-200", "10=1e17 20=0 40=0.1"] {
+        let (graph, _) = arcs("", &format!("CIRCLE {circle}"));
+        assert!(graph.arcs.is_empty(), "{circle}");
+        assert!(graph.cloud.losses.iter().any(|loss| loss.ends_with("are straight: 1")), "{circle}");
+    }
+}
+
+#[test]
 fn bulges_that_are_none_are_told() {
     for (bulge, count) in [("nan", 1), ("inf", 1), ("-1e300", 1), ("1e-320", 0), ("0", 0), ("1e-9", 0)] {
         let (graph, _) = arcs("", &format!("LWPOLYLINE 10=0 20=0 42={bulge} 10=1 20=0 10=2 20=2"));
-        let told =
-            graph.cloud.losses.iter().filter(|loss| loss.starts_with("1 arcs of polylines are straight"));
+        let told = graph.cloud.losses.iter().filter(|loss| loss.ends_with("are straight: 1"));
         assert_eq!(told.count(), count, "{bulge}: {:?}", graph.cloud.losses);
     }
 }
