@@ -12,6 +12,8 @@ use delone::Arc2;
 pub(super) struct Path {
     pub(super) points: Vec<[f64; 3]>,
     pub(super) centers: Vec<(usize, [f64; 3])>,
+    /// How many ellipses and splines these are.
+    pub(super) curves: usize,
     /// How many arcs these are.
     pub(super) arcs: usize,
     /// How many are chords alone, because the numbers of their circles are too large or too small.

@@ -1,6 +1,7 @@
 //! Entities: what their groups say, and which geometry that is.
 
 use super::curves::Path;
+use super::splines::{Ellipse, Spline, Vertex, WHOLE_TURN};
 use crate::Error;
 use crate::error::excerpt;
 
@@ -62,8 +63,20 @@ impl Item {
 }
 
 /// The kinds that have numbers which are read.
-const KINDS: [&str; 10] =
-    ["POINT", "LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "VERTEX", "3DFACE", "INSERT", "BLOCK"];
+const KINDS: [&str; 12] = [
+    "POINT",
+    "LINE",
+    "ARC",
+    "CIRCLE",
+    "ELLIPSE",
+    "SPLINE",
+    "LWPOLYLINE",
+    "POLYLINE",
+    "VERTEX",
+    "3DFACE",
+    "INSERT",
+    "BLOCK",
+];
 
 /// Codes of groups.
 const NAME: i32 = 2;
@@ -78,6 +91,10 @@ const BULGE: i32 = 42;
 const STEPS: [i32; 2] = [44, 45];
 const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
+const DEGREE: i32 = 71;
+const KNOT: i32 = 40;
+const WEIGHT: i32 = 41;
+const PARAMETERS: [i32; 2] = [41, 42];
 const ON_PAPER: i32 = 67;
 const FLAGS: i32 = 70;
 const COUNTS: [i32; 2] = [70, 71];
@@ -143,7 +160,7 @@ impl Entity {
         let is_flat = ["ARC", "CIRCLE", "LWPOLYLINE", "INSERT"].contains(&self.kind.as_str())
             || self.kind == "POLYLINE" && !in_space;
         let up = self.number(UP).unwrap_or(1.0);
-        if is_flat && up.abs() != 1.0 {
+        if (is_flat || self.kind == "ELLIPSE") && up.abs() != 1.0 {
             return What::IsNot(format!("{} in a tilted plane", self.kind));
         }
         let sign = if is_flat && up < 0.0 { -1.0 } else { 1.0 };
@@ -180,6 +197,15 @@ impl Entity {
                     return Err(format!("{} of numbers that are not finite", self.kind));
                 }
                 Ok(line(Path::around(center, radius, angles), is_circle, has_height(Z), self.layer))
+            }
+            "ELLIPSE" | "SPLINE" => {
+                let (vertices, is_closed) =
+                    if self.kind == "ELLIPSE" { self.ellipse()? } else { self.spline()? };
+                let height = self.number(Z).unwrap_or_default();
+                let raised: Vec<_> =
+                    vertices.into_iter().map(|([x, y], bulge)| ([x, y, height], bulge)).collect();
+                let path = Path { curves: 1, ..Path::with_bulges(&raised, is_closed) };
+                Ok(line(path, is_closed, has_height(Z), self.layer))
             }
             "3DFACE" => {
                 let mut points: Vec<[f64; 3]> = (0..4).map_while(|k| self.corner(k)).collect();
@@ -230,6 +256,57 @@ impl Entity {
             }
             _ => Err(self.kind),
         }
+    }
+
+    /// The numbers of a code, in their order.
+    fn all(&self, code: i32) -> Vec<f64> {
+        self.numbers.iter().filter(|number| number.0 == code).map(|number| number.1).collect()
+    }
+
+    /// The arcs of an ellipse, and whether it is whole.
+    fn ellipse(&self) -> Result<(Vec<Vertex>, bool), String> {
+        let short = || "ELLIPSE without a position or an axis".to_owned();
+        let ([x, y, _], [u, v, w]) = (self.corner(0).ok_or_else(short)?, self.corner(1).ok_or_else(short)?);
+        let ratio = self.number(RADIUS).unwrap_or(1.0) * self.number(UP).unwrap_or(1.0);
+        let [first, last] = PARAMETERS.map(|code| self.number(code));
+        let (first, last) = (first.unwrap_or(0.0), last.unwrap_or(std::f64::consts::TAU));
+        let last = if last > first { last } else { last + std::f64::consts::TAU };
+        let is_ellipse = [x, y, u, v, w, ratio, first, last].iter().all(|x| x.is_finite())
+            && ratio != 0.0
+            && (u, v) != (0.0, 0.0)
+            && last > first;
+        if !is_ellipse {
+            return Err("ELLIPSE of numbers that are none".to_owned());
+        }
+        if w != 0.0 {
+            return Err("ELLIPSE in a tilted plane".to_owned());
+        }
+        let ellipse = Ellipse { center: [x, y], axes: [[u, v], [-ratio * v, ratio * u]] };
+        let is_whole = WHOLE_TURN.contains(&(last - first));
+        let mut vertices = ellipse.arcs([first, if is_whole { first + std::f64::consts::TAU } else { last }]);
+        vertices.truncate(vertices.len() - usize::from(is_whole));
+        Ok((vertices, is_whole))
+    }
+
+    /// The arcs of a spline, and whether it is closed.
+    fn spline(&self) -> Result<(Vec<Vertex>, bool), String> {
+        let [x, y, z] = [X, Y, Z].map(|code| self.all(code));
+        if x.is_empty() {
+            return Err("SPLINE of fit points".to_owned());
+        }
+        if z.windows(2).any(|pair| pair[0] != pair[1]) {
+            return Err("SPLINE that is not level".to_owned());
+        }
+        let mut weights = self.all(WEIGHT);
+        weights.resize(x.len(), 1.0);
+        let places = x.into_iter().zip(y).map(|(x, y)| [x, y]);
+        let degree = self.number(DEGREE).unwrap_or_default() as usize;
+        let spline = Spline { degree, knots: self.all(KNOT), points: places.zip(weights).collect() };
+        let mut vertices = spline.arcs().map_err(|why| format!("SPLINE {why}"))?;
+        let ends = [vertices[0].0, vertices[vertices.len() - 1].0];
+        let is_closed = vertices.len() > 2 && (self.flags() & CLOSED != 0 || ends[0] == ends[1]);
+        vertices.truncate(vertices.len() - usize::from(is_closed));
+        Ok((vertices, is_closed))
     }
 
     /// The base point of a block.

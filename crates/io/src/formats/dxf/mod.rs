@@ -1,6 +1,6 @@
 //! Drawings in DXF, as text: points, lines, polylines and the edges of faces, with their layers; blocks are put where they are inserted.
 //!
-//! Arcs and circles are chords of at most 11.25 degrees, with their centers for meshes that follow them. Closed polylines and circles are lines that end where they begin: contours are such lines, and
+//! Arcs and circles are chords of at most 11.25 degrees, with their centers for meshes that follow them; ellipses and splines are arcs. Closed polylines and circles are lines that end where they begin: contours are such lines, and
 //! would leave out what is inside of them as borders. Where polygons are asked for, they are polygons. What else a drawing has is counted.
 //!
 //! Source: Autodesk's "DXF Reference", 2012. Read by hand: a drawing is pairs of lines, a code and a value.
@@ -8,6 +8,7 @@
 mod blocks;
 mod curves;
 mod entity;
+mod splines;
 
 use std::collections::BTreeMap;
 
@@ -54,8 +55,9 @@ struct Drawing {
     polyline: Option<Entity>,
     /// How many entities of each kind were left out, and why.
     left_out: BTreeMap<String, usize>,
-    /// Arcs, and how many of them are not parts of circles: of blocks that are stretched, and with numbers that are no circle.
+    /// Arcs, ellipses and splines, and how many of them are not parts of circles: of blocks that are stretched, and with numbers that are no circle.
     arcs: usize,
+    curves: usize,
     stretched: usize,
     lost: usize,
 }
@@ -88,6 +90,7 @@ pub(crate) fn read(
         polyline: None,
         left_out: BTreeMap::new(),
         arcs: 0,
+        curves: 0,
         stretched: 0,
         lost: 0,
     };
@@ -134,6 +137,10 @@ pub(crate) fn read(
     if drawing.arcs > 0 {
         let what = "arcs and circles, as chords of at most 11.25 degrees that meshes follow";
         shapes.remarks.push(format!("{what}: {}", drawing.arcs));
+    }
+    if drawing.curves > 0 {
+        let what = "ellipses and splines, as arcs within a ten-thousandth of their extent";
+        shapes.remarks.push(format!("{what}: {}", drawing.curves));
     }
     if drawing.stretched > 0 {
         shapes.losses.push(format!("arcs that blocks stretch are chords alone: {}", drawing.stretched));
@@ -190,12 +197,13 @@ impl Drawing {
             block.items.push(item);
             return Ok(());
         }
-        let Self { shapes, blocks, left_out, arcs, stretched, lost, .. } = self;
+        let Self { shapes, blocks, left_out, arcs, curves, stretched, lost, .. } = self;
         let closed_are_polygons = self.closed_are_polygons;
         blocks.expand(&item, &mut |layer, item, path| match item {
             None => *left_out.entry("INSERT of what is no block".to_owned()).or_default() += 1,
             Some(item) => {
-                *arcs += path.arcs;
+                *curves += path.curves;
+                *arcs += if path.curves > 0 { 0 } else { path.arcs };
                 *lost += path.lost;
                 *stretched += if path.centers.is_empty() { path.arcs } else { 0 };
                 draw(shapes, layer, item, path, closed_are_polygons);

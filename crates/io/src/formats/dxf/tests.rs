@@ -40,7 +40,7 @@ fn entities_of_all_kinds() {
         POLYLINE 8=d 66=1 70=8 10=0 20=0 30=0 VERTEX 8=d 10=1 20=1 30=9 VERTEX 8=d 10=2 20=1 30=8 SEQEND 8=d \
         POLYLINE 8=e 70=0 30=6 VERTEX 10=1 20=1 30=0 VERTEX 10=2 20=2 30=0 VERTEX 70=16 10=9 20=9 SEQEND \
         3DFACE 8=f 10=0 20=0 30=0 11=1 21=0 31=1 12=0 22=1 32=2 13=0 23=1 33=2 \
-        SPLINE 8=g 10=0 20=0 40=1 SPLINE 10=no TEXT 1=x LINE 67=1 10=0 20=0 11=1 21=1 \
+        HATCH 8=g 10=0 20=0 40=1 HATCH 10=no TEXT 1=x LINE 67=1 10=0 20=0 11=1 21=1 \
         LWPOLYLINE 10=1 20=2 210=0 220=0 230=-1 10=2 20=2 LWPOLYLINE 10=1 20=2 230=0.5 POLYLINE 70=64 VERTEX 10=1 20=1 SEQEND";
     let graph = read(drawing("", entities)).expect("a drawing");
     let z = |i: usize| graph.cloud.z.as_ref().map(|z| z[i]);
@@ -53,7 +53,7 @@ fn entities_of_all_kinds() {
     assert_eq!(layers(&graph)[..4], ["\"a\"", "\"b\"", "\"b\"", "\"c\""]);
     assert_eq!((graph.segments.len(), graph.rings.len()), (1 + 3 + 1 + 1 + 3 + 1, 0));
     let losses = graph.cloud.losses.join("; ");
-    let left = "1 LINE on paper, 1 LWPOLYLINE in a tilted plane, 1 POLYLINE that is a mesh, 2 SPLINE, 1 TEXT";
+    let left = "2 HATCH, 1 LINE on paper, 1 LWPOLYLINE in a tilted plane, 1 POLYLINE that is a mesh, 1 TEXT";
     assert!(losses.contains(left), "{losses}");
     let high = "POINT 10=1 20=2 30=3 POLYLINE 70=0 30=6 VERTEX 10=1 20=1 VERTEX 10=2 20=2 SEQEND";
     assert_eq!(read(drawing("", high)).expect("heights").cloud.z, Some(vec![3.0, 6.0, 6.0]));
@@ -247,5 +247,70 @@ fn broken_drawings_are_named() {
     assert_eq!(read(whole.clone()).expect("two entities").cloud.xy, [[0.0, 0.0], [1.0, 1.0]]);
     for length in 0..whole.len() - 5 {
         assert!(read(whole[..length].to_owned()).is_err(), "cut to {length}");
+    }
+}
+
+#[test]
+fn ellipses_and_splines_are_arcs() {
+    let outside = |graph: &Graph, f: &dyn Fn([f64; 2]) -> f64| {
+        let worst = graph.cloud.xy.iter().map(|&p| f(p).abs()).fold(0.0, f64::max);
+        // Arcs end where the curve is, and their middles are near it.
+        assert!(graph.arcs.len() + 1 >= graph.segments.len() && !graph.arcs.is_empty());
+        worst
+    };
+    // Half axes of 3 and 1, whole and a quarter; seen from below a quarter goes the other way.
+    let on_ellipse = |p: [f64; 2]| ((p[0] - 5.0) / 3.0).hypot(p[1] - 1.0) - 1.0;
+    let (whole, _) =
+        arcs("", "ELLIPSE 10=5 20=1 30=0 11=3 21=0 31=0 40=0.3333333333333333 41=0 42=6.283185307179586");
+    assert!(outside(&whole, &on_ellipse) < 3.1e-4, "{:?}", whole.cloud.xy);
+    assert_eq!(whole.cloud.xy[0], whole.cloud.xy[whole.cloud.xy.len() - 1]);
+    assert_eq!(whole.cloud.losses, [""; 0]);
+    assert!(
+        whole.cloud.remarks[0].ends_with("ten-thousandth of their extent: 1"),
+        "{:?}",
+        whole.cloud.remarks
+    );
+    for (up, y) in [("", 2.0), ("230=-1", 0.0)] {
+        let quarter = format!(
+            "ELLIPSE 10=5 20=1 30=0 11=3 21=0 31=0 40=0.3333333333333333 41=0 42=1.5707963267948966 {up}"
+        );
+        let (quarter, _) = arcs("", &quarter);
+        let [first, last] = [0, quarter.cloud.xy.len() - 1].map(|i| quarter.cloud.xy[i]);
+        assert_eq!(first, [8.0, 1.0]);
+        assert!((last[0] - 5.0).abs() < 1e-15 && (last[1] - y).abs() < 1e-15, "{last:?}");
+        assert!(outside(&quarter, &on_ellipse) < 3.1e-4);
+    }
+    // A quarter of a circle by weights; a cubic that bends twice; a closed one; a line.
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let circle = format!(
+        "SPLINE 70=4 71=2 40=0 40=0 40=0 40=1 40=1 40=1 41=1 41={half} 41=1 10=1 20=0 10=1 20=1 10=0 20=1"
+    );
+    let (circle, radii) = arcs("", &circle);
+    assert!(radii.iter().all(|r| (r - 1.0).abs() < 1e-12), "{radii:?}");
+    assert!(outside(&circle, &|p| p[0].hypot(p[1]) - 1.0) < 1e-12);
+    let cubic =
+        "SPLINE 70=8 71=3 40=0 40=0 40=0 40=0 40=1 40=1 40=1 40=1 10=0 20=0 10=1 20=1 10=2 20=-1 10=3 20=0";
+    let (cubic, _) = arcs("", cubic);
+    // x is 3 t there.
+    let off = |p: [f64; 2]| {
+        let t = p[0] / 3.0;
+        p[1] - 3.0 * t * (1.0 - t) * (1.0 - 2.0 * t)
+    };
+    assert!(outside(&cubic, &off) < 3e-4 && cubic.cloud.xy.len() > 10);
+    let line = "SPLINE 71=1 40=0 40=0 40=1 40=2 40=2 10=0 20=0 10=1 20=1 10=3 20=0";
+    let (line, _) = arcs("", line);
+    assert_eq!((line.cloud.xy.len(), line.arcs.len()), (5, 0), "{:?}", line.cloud.xy);
+    // Without what they need they are counted.
+    for (entity, why) in [
+        ("SPLINE 71=3 11=0 21=0 11=1 21=1", "SPLINE of fit points"),
+        ("SPLINE 71=3 40=0 40=1 10=0 20=0 10=1 20=1", "SPLINE whose knots do not fit"),
+        ("SPLINE 71=1 40=0 40=0 40=nan 40=1 10=0 20=0 10=1 20=1", "SPLINE of numbers that are none"),
+        ("SPLINE 71=1 40=0 40=0 40=1 40=1 10=0 20=0 30=0 10=1 20=1 30=1", "SPLINE that is not level"),
+        ("ELLIPSE 10=0 20=0 11=0 21=0 40=1", "ELLIPSE of numbers that are none"),
+        ("ELLIPSE 10=0 20=0 11=1 21=0 31=1 40=1", "ELLIPSE in a tilted plane"),
+        ("ELLIPSE 10=0 20=0", "ELLIPSE without a position or an axis"),
+    ] {
+        let (graph, _) = arcs("", entity);
+        assert!(graph.cloud.losses[0].contains(&format!("1 {why}")), "{entity}: {:?}", graph.cloud.losses);
     }
 }
