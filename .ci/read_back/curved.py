@@ -1,10 +1,10 @@
-"""Drawings with arcs, written by ezdxf: meshes of second order fill what their curves bound, and no element is inverted."""
+"""Drawings with curves, written by ezdxf: meshes of second order fill what they bound, and no element is inverted."""
 
 import math
 
 import ezdxf
 import numpy as np
-from ezdxf.math import bulge_radius
+from ezdxf.math import BSpline, bulge_radius
 from solvers import by_meshio, gmsh
 from world import FOLDER, run
 
@@ -79,4 +79,34 @@ def drawings_with_arcs():
             gmsh.finalize()
 
 
-JUDGES = [drawings_with_arcs]
+def closed_curves():
+    """A spline, a rational one and an ellipse far from the origin: drawings, with many points of each."""
+    around = [(637000 + r * math.cos(a), r * math.sin(a)) for a, r in zip(range(6), (3, 2, 2.5, 3, 1.5, 2), strict=True)]
+    places = [(x, y, 0) for x, y in [*around, around[0]]]
+    for weights in (None, [1, 2, 0.5, 1, 3, 1, 2]):
+        drawing = ezdxf.new("R2010")
+        curve = BSpline(places, order=4, weights=weights)
+        spline = drawing.modelspace().add_spline()
+        spline.control_points, spline.knots, spline.dxf.degree = places, curve.knots(), 3
+        if weights:
+            spline.weights = weights
+        yield drawing, np.array([(point.x, point.y) for point in curve.approximate(20_000)])
+    drawing = ezdxf.new("R2010")
+    ellipse = drawing.modelspace().add_ellipse((637000, 5), (2, 1), ratio=0.2)
+    yield drawing, np.array([(point.x, point.y) for point in ellipse.vertices(np.linspace(0, 2 * math.pi, 20_001))])
+
+
+def drawings_with_splines():
+    """Areas are those of the curves."""
+    for drawing, points in closed_curves():
+        drawing.saveas(FOLDER / "spline.dxf")
+        run("mesh", "spline.dxf", "--fill", "even-odd", "--edge", 0.4, "--second-order", "--check", "-o", "spline.vtu")
+        mesh = by_meshio("spline.vtu")
+        sixes = mesh.points[mesh.cells_dict["triangle6"]][..., :2] - [637000, 0]
+        area = sum(jacobians(sixes, at).sum() for at in ((0.5, 0), (0.5, 0.5), (0, 0.5))) / 6
+        x, y = (points - [637000, 0]).T
+        wanted = abs((x[:-1] * y[1:] - x[1:] * y[:-1]).sum() + x[-1] * y[0] - x[0] * y[-1]) / 2
+        assert abs(area / wanted - 1) < 3e-4, f"{area}, not {wanted}"
+
+
+JUDGES = [drawings_with_arcs, drawings_with_splines]

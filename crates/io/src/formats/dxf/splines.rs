@@ -88,6 +88,15 @@ impl Spline {
             }
         }
         vertices.push((end, 0.0));
+        // With knots that are there often enough it ends in control points, which other lines may meet.
+        let (last, count) = (vertices.len() - 1, degree + 1);
+        let are_equal = |knots: &[f64]| knots.iter().all(|knot| *knot == knots[0]);
+        if are_equal(&knots[..count]) {
+            vertices[0].0 = points[0].0;
+        }
+        if are_equal(&knots[knots.len() - count..]) {
+            vertices[last].0 = points[points.len() - 1].0;
+        }
         Ok(vertices)
     }
 

@@ -297,6 +297,10 @@ fn ellipses_and_splines_are_arcs() {
         p[1] - 3.0 * t * (1.0 - t) * (1.0 - 2.0 * t)
     };
     assert!(outside(&cubic, &off) < 3e-4 && cubic.cloud.xy.len() > 10);
+    let heart = "SPLINE 71=3 40=0 40=0 40=0 40=0 40=1 40=1 40=1 40=1 41=0.3 41=1.7 41=2 41=0.7 10=0.1 20=0.2 10=4 20=3 10=-4 20=3 10=0.1 20=0.2";
+    let (heart, _) = arcs("", heart);
+    let ends = [heart.cloud.xy[0], heart.cloud.xy[heart.cloud.xy.len() - 1]];
+    assert_eq!(ends, [[0.1, 0.2]; 2]);
     let line = "SPLINE 71=1 40=0 40=0 40=1 40=2 40=2 10=0 20=0 10=1 20=1 10=3 20=0";
     let (line, _) = arcs("", line);
     assert_eq!((line.cloud.xy.len(), line.arcs.len()), (5, 0), "{:?}", line.cloud.xy);
