@@ -10,8 +10,9 @@
 const FARTHEST_ARC: f64 = 1e-4;
 /// The least bulge of an arc: what rises over its chord by less than half of a hundred-millionth of it is a line.
 const LEAST_BULGE: f64 = 1e-8;
-/// Halvings of a piece at most: what is still far then has a corner.
-const HALVINGS: usize = 16;
+/// Halvings of a piece at most, so that memory stays in proportion to the file: 128 pieces are within a millionth of any smooth curve, and what is
+/// still far has a corner, or coordinates without digits for it.
+const HALVINGS: usize = 7;
 
 /// Parameters of an ellipse that differ from a whole turn by less are one: files have six digits and more.
 pub(super) const WHOLE_TURN: std::ops::Range<f64> = std::f64::consts::TAU - 1e-5..f64::INFINITY;
