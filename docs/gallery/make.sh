@@ -31,6 +31,7 @@ $delone voronoi "$work/seeds.csv" --areas "$work/sizes.csv" --box 0,0,1,1 -o $he
 
 # Meshes, coloured by the smallest angle of each triangle: a machine part, and lakes.
 $delone mesh $here/part.poly --min-angle 30 --max-area 12 --color angle -o $here/part.png --picture-size 800
+$delone mesh $here/plate.dxf --fill even-odd --edge 0.25 --min-angle 28 --color angle -o $here/plate.png --picture-size 960
 $delone mesh $here/wing.poly --edge 0.08 --min-angle 28 --layers 2,3 --layer-height 0.001 --layer-count 10 --layer-growth 1.3 --color angle \
     -o $here/wing.png --picture-size 960
 $delone draw $here/part.poly -o $here/part-before.png --size 800
