@@ -114,7 +114,7 @@ pub(crate) struct MeshArgs {
     /// Fill the holes of .poly files.
     #[arg(long, help_heading = "Segments")]
     pub(crate) ignore_holes: bool,
-    /// Triangles with six nodes: their corners and the middles of their edges.
+    /// Triangles with six nodes: their corners and the middles of their edges, which are on the arcs of drawings.
     #[arg(long)]
     pub(crate) second_order: bool,
     /// Quadrilaterals where two triangles make one with angles from 30 to 150 degrees, and triangles elsewhere.

@@ -7,6 +7,7 @@ use delone_generators::Random;
 use delone_oracle::exact::orient2d;
 use num_bigint::BigInt;
 
+use super::change;
 use super::wish::Wish;
 use crate::attack::Judgement;
 use crate::nasty::once_in;
@@ -82,7 +83,8 @@ pub(super) fn attack(before: &Constrained2, wish: &Wish, again: &Wish, random: &
     let first = wish.clone().along(arcs.clone());
     let Some(refined) = refine(&mut c, &first, first.fill(), &arcs)? else { return Ok(()) };
     let more = again.clone().along(arcs.clone());
-    refine(&mut c, &more, Fill::Parts(&refined.domains), &arcs).map(|_| ())
+    refine(&mut c, &more, Fill::Parts(&refined.domains), &arcs)?;
+    change(&mut c, before.points().len(), random)
 }
 
 fn refine(

@@ -1,7 +1,7 @@
 //! Arcs: of circles, and between vertices of polylines, as chords with the centers of their circles.
 //!
 //! Quarters of a turn or less are divided as [`Arc2`] says; larger arcs are cut before. A bulge is the tangent of a quarter of the angle of an
-//! arc, positive to the left of which its center is.
+//! arc, positive if the arc turns to the left.
 
 use std::f64::consts::SQRT_2;
 
