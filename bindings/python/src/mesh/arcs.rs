@@ -45,7 +45,9 @@ pub fn divide_arcs<'py>(
         .collect();
     let shared = arcs_over_shared_chords(&points, &ends, &curved);
     let mut is_shared = vec![false; ends.len()];
-    shared.into_iter().for_each(|k| is_shared[curved[k].0] = true);
+    for k in shared {
+        is_shared[curved[k].0] = true;
+    }
     let (mut pieces, mut origins, mut rows, mut known) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (segment, ([a, b], center)) in ends.into_iter().zip(centers).enumerate() {
         if center.iter().all(|x| x.is_nan()) {
