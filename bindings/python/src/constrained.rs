@@ -188,6 +188,8 @@ impl Constrained {
                 "all" => Fill::All,
                 "even-odd" => Fill::EvenOdd,
                 "nonzero" => Fill::NonZero,
+                "positive" => Fill::Positive,
+                "negative" => Fill::Negative,
                 "seeds" => Fill::Seeds(&seeds),
                 other => return Err(PyValueError::new_err(format!("no such fill: {other}"))),
             };

@@ -1,6 +1,6 @@
 //! Many polygons to triangles at once.
 
-use delone::{Crossings, Error, PolygonTriangles2, Polygons2};
+use delone::{Crossings, Error, PolygonTriangles2, Polygons2, RingFill};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -28,7 +28,7 @@ pub fn triangulate_polygons<'py>(
     corners: PyReadonlyArray2<'py, f64>,
     rings: PyReadonlyArray1<'py, i64>,
     polygons: PyReadonlyArray1<'py, i64>,
-    nonzero: bool,
+    fill: &str,
     split: bool,
     is_one: bool,
 ) -> PyResult<Ragged<'py>> {
@@ -37,7 +37,14 @@ pub fn triangulate_polygons<'py>(
     let polygons = offsets(&polygons, rings.len() - 1)?;
     TRIANGULATION.check_with(2, 0, corners.len().saturating_mul(40))?;
     let size = work(corners.len(), corners.len(), split);
-    let how = Polygons2::default().with_nonzero(nonzero);
+    let fill = match fill {
+        "even-odd" => RingFill::EvenOdd,
+        "nonzero" => RingFill::NonZero,
+        "positive" => RingFill::Positive,
+        "negative" => RingFill::Negative,
+        other => return Err(PyValueError::new_err(format!("no such fill: {other}"))),
+    };
+    let how = Polygons2::default().with_fill(fill);
     let how = how.with_crossings(if split { Crossings::Split } else { Crossings::Refuse });
     let done = interruptible(py, size, move || {
         let ring = |pair: &[usize]| &corners[pair[0]..pair[1]];

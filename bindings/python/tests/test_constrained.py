@@ -385,7 +385,7 @@ def test_extremes():
         for n in range(4):
             line = delone.ConstrainedDelaunay(np.arange(n)[:, None] * [1.0, 1.0], [[0, n - 1]] if n else None)
             assert line.nsimplex == 0 and len(line.constraints) == max(0, n - 1) and "0 triangles" in repr(line)
-            for fill in ("all", "even-odd", "nonzero", "seeds"):
+            for fill in ("all", "even-odd", "nonzero", "positive", "negative", "seeds"):
                 other = delone.ConstrainedDelaunay(line.points, fill=fill)
                 assert other.simplices.shape == other.neighbors.shape == other.constrained.shape == (0, 3)
                 assert other.find_simplex([0, 0]) == -1 and other.attributes.shape == (0,)

@@ -77,6 +77,15 @@ def test_fills_and_crossings():
     twice = [SQUARE, [[x + 2, y] for x, y in SQUARE]]
     assert delone.triangulate_polygon(twice, crossings="split").area == 16
     assert delone.triangulate_polygon(twice, crossings="split", fill="nonzero").area == 24
+    # By rings in opposite directions holes have winding 0, and where they overlap it is -1.
+    square, hole, other = (
+        [np.multiply([[0, 0], [1, 0], [1, 1], [0, 1]], 10)],
+        [[2, 2], [2, 6], [6, 6], [6, 2]],
+        [[4, 4], [4, 8], [8, 8], [8, 4]],
+    )
+    for fill, area in (("even-odd", 76), ("nonzero", 76), ("positive", 72), ("negative", 4)):
+        found = delone.triangulate_polygon([*square, hole, other], crossings="split", fill=fill)
+        assert found.area == area
     for name, call in (("fill", {"fill": "all"}), ("crossings", {"crossings": "join"})):
         with pytest.raises(ValueError, match=f"{name} must be one of"):
             delone.triangulate_polygon(SQUARE, **call)

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use delone::{Crossings, PolygonTriangles2, Polygons2};
 use delone_io::{Contents, Graph, Patches, write_patches};
 
-use crate::args::{CrossingsName, InputArgs, PolygonFill, PolygonsArgs};
+use crate::args::{CrossingsName, InputArgs, PolygonsArgs};
+use crate::constrained::features::filled_holes;
 use crate::files;
 use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
@@ -37,17 +38,19 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
         Some(CrossingsName::Split) => Crossings::Split,
         _ => Crossings::Refuse,
     };
-    let how = Polygons2::default().with_crossings(crossings).with_nonzero(args.fill == PolygonFill::Nonzero);
+    let how = Polygons2::default().with_crossings(crossings).with_fill(args.fill.rule());
     let place = |ring: &Vec<usize>| -> Vec<[f64; 2]> { ring.iter().map(|&i| graph.cloud.xy[i]).collect() };
     let rings: Vec<Vec<Vec<[f64; 2]>>> =
         polygons.iter().map(|rings| rings.iter().map(place).collect()).collect();
     let results = how.triangulate_all(&rings);
+    let filled = how.filled_holes_of_all(&rings);
     drop(phase);
     let mut patches = Patches { points: graph.cloud.xy.clone(), ..Patches::default() };
     patches.rows = vec![None; polygons.len()];
     graph.rings.iter().for_each(|ring| patches.rows[ring.polygon] = graph.row_of(ring));
     (patches.crs, patches.table) = (graph.cloud.crs, graph.cloud.features.table);
     let given = patches.points.len();
+    tell_filled(&filled, quiet);
     let mut refused = 0;
     for (index, (result, rings)) in results.into_iter().zip(&polygons).enumerate() {
         match result {
@@ -98,6 +101,15 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.stats.as_deref())
+}
+
+/// Tells which holes are filled at least in part, by polygon.
+fn tell_filled(filled: &[Vec<usize>], quiet: bool) {
+    let count = filled.iter().map(Vec::len).sum();
+    if let Some((polygon, ring)) = filled.iter().enumerate().find_map(|(i, rings)| Some((i, *rings.first()?)))
+    {
+        note(quiet, filled_holes(count, polygon, ring));
+    }
 }
 
 /// The rings of each polygon, as indices of points.

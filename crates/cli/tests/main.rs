@@ -14,6 +14,7 @@ mod dtm;
 #[cfg(feature = "parquet")]
 mod features;
 mod files;
+mod fills;
 mod folder;
 mod folders;
 mod graph;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Crossings, Error, Fill, Polygons2, SegmentId};
+use delone::{Constrained2, Crossings, Error, Fill, Polygons2, RingFill, SegmentId};
 use delone_generators::{Kind, Random};
 use delone_oracle::{constrained, crossings};
 
@@ -102,18 +102,27 @@ fn what_is_inside_is_what_rays_say() {
             .collect();
         let points: Points = rings.concat();
         let mut sides: Segments = Vec::new();
-        for ring in &rings {
+        let mut ring_of = Vec::new();
+        for (number, ring) in rings.iter().enumerate() {
             let first = sides.len();
             sides.extend((0..ring.len()).map(|i| [first + i, first + (i + 1) % ring.len()]));
+            ring_of.resize(sides.len(), number);
         }
+        // The first ring is a shell, and perhaps the second is one.
+        let second = random.below(2);
+        let shells: Vec<usize> = (0..rings.len()).map(|ring| ring.min(second)).collect();
+        let ring = |s: SegmentId| Some(ring_of[s.index()]);
         let c = Constrained2::with_crossings(&points, &sides, Crossings::Split).expect("it ends");
         // Chains, as the rounding of crossings has bent them.
         let chains: Vec<Vec<[f64; 2]>> = (0..sides.len())
             .filter_map(|s| c.chain(SegmentId::new(s)))
             .map(|chain| chain.into_iter().map(|v| c.point(v)).collect())
             .collect();
-        let [even_odd, nonzero] =
-            [Fill::EvenOdd, Fill::NonZero].map(|fill| c.domains(&fill).expect("no seeds"));
+        let [even_odd, nonzero, positive, negative] =
+            [Fill::EvenOdd, Fill::NonZero, Fill::Positive, Fill::Negative]
+                .map(|fill| c.domains(&fill).expect("no seeds"));
+        let holed = c.shells_minus_holes(ring, &shells);
+        let mut filled_holes = BTreeSet::new();
         for t in c.triangle_ids() {
             let corners = c.mesh().corners(t).map(|v| c.point(v));
             let middle = [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
@@ -121,7 +130,10 @@ fn what_is_inside_is_what_rays_say() {
                 continue; // its middle may be rounded to beyond its sides
             }
             let (mut crossed, mut winding) = (0, 0);
-            for link in chains.iter().flat_map(|chain| chain.windows(2)) {
+            let mut is_around = vec![false; rings.len()];
+            let links =
+                chains.iter().zip(0..).flat_map(|(chain, s)| chain.windows(2).map(move |link| (link, s)));
+            for (link, s) in links {
                 let [p, q] = [link[0], link[1]];
                 let upwards = p[1] <= middle[1] && q[1] > middle[1];
                 let downwards = q[1] <= middle[1] && p[1] > middle[1];
@@ -132,15 +144,35 @@ fn what_is_inside_is_what_rays_say() {
                 if upwards == side.is_positive() {
                     crossed += 1;
                     winding += if upwards { 1 } else { -1 };
+                    is_around[ring_of[s]] ^= true;
                 }
             }
             assert_eq!(even_odd.is_inside(t), crossed % 2 == 1, "{rings:?}");
             assert_eq!(nonzero.is_inside(t), winding != 0, "{rings:?}");
+            assert_eq!(positive.is_inside(t), winding > 0, "{rings:?}");
+            assert_eq!(negative.is_inside(t), winding < 0, "{rings:?}");
+            let is_hole_around = |r: usize, shell: usize| r != shell && shells[r] == shell && is_around[r];
+            let is_left =
+                |shell: usize| is_around[shell] && !(0..rings.len()).any(|r| is_hole_around(r, shell));
+            let is_in_shells = (0..rings.len()).filter(|&r| shells[r] == r).any(is_left);
+            assert_eq!(holed.is_inside(t), is_in_shells, "{rings:?} {shells:?}");
+            if winding > 0 && !is_in_shells {
+                filled_holes.extend((0..rings.len()).filter(|&r| shells[r] != r && is_around[r]));
+            }
         }
+        let told = c.filled_holes(&positive, ring, &shells);
+        assert!(filled_holes.iter().all(|hole| told.contains(hole)), "{rings:?} {shells:?}");
+        assert!(c.filled_holes(&holed, ring, &shells).is_empty());
         let filled =
             Polygons2::default().with_crossings(Crossings::Split).triangulate(&rings).expect("it ends");
         let inside = c.triangle_ids().filter(|&t| even_odd.is_inside(t)).count();
         assert_eq!(filled.triangles.len(), inside);
+        if second == 0 {
+            let how =
+                Polygons2::default().with_crossings(Crossings::Split).with_fill(RingFill::ShellMinusHoles);
+            let left = how.triangulate(&rings).expect("it ends");
+            assert_eq!(left.triangles.len(), c.triangle_ids().filter(|&t| holed.is_inside(t)).count());
+        }
     }
 }
 

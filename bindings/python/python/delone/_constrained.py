@@ -13,7 +13,7 @@ from ._kept import Kept
 from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries
 from ._polygons import points_and_segments
 
-_FILLS = ("all", "even-odd", "nonzero", "seeds")
+_FILLS = ("all", "even-odd", "nonzero", "positive", "negative", "seeds")
 _CROSSINGS = ("refuse", "split")
 _ENDS = ("refuse", "join", "drop")
 
@@ -37,7 +37,8 @@ class ConstrainedDelaunay(Kept):
         A point in each region, and an attribute for its triangles; without one it is the index of the region.
     fill : str, optional
         Which triangles are inside. "all": those of the convex hull. "even-odd": those that an odd number of segments is
-        around. "nonzero": those that segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what
+        around. "nonzero": those that segments wind around, counter-clockwise less clockwise; "positive" where this is more
+        than zero, "negative" where it is less. "seeds": all but holes and what
         no segments part from the outside, as Triangle has it. The last one with `holes` or `regions`; else "even-odd" for
         polygons, "all" for points.
     crossings : str
@@ -150,7 +151,7 @@ class ConstrainedDelaunay(Kept):
 
     @property
     def fill(self) -> str:
-        """Which triangles are inside: "all", "even-odd", "nonzero" or "seeds"."""
+        """Which triangles are inside: "all", "even-odd", "nonzero", "positive", "negative" or "seeds"."""
         return self._fill
 
     @property
@@ -235,7 +236,7 @@ class ConstrainedDelaunay(Kept):
     @property
     def windings(self) -> NDArray[np.int32]:
         """How often segments wind around each triangle inside, counter-clockwise less clockwise, (nsimplex,); 0 unless `fill`
-        is "even-odd" or "nonzero"."""
+        is "even-odd", "nonzero", "positive" or "negative"."""
         return self._once("windings", lambda: self._of_inside(self._of_parts(2)))
 
     @property

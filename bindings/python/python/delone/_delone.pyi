@@ -273,7 +273,7 @@ def triangulate_polygons(
     corners: NDArray[np.float64],
     rings: NDArray[np.int64],
     polygons: NDArray[np.int64],
-    nonzero: bool,
+    fill: str,
     split: bool,
     is_one: bool,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...

@@ -101,7 +101,8 @@ def mesh(
         triangles.
     fill : str, optional
         What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
-        around. "nonzero": what segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what no
+        around. "nonzero": what segments wind around, counter-clockwise less clockwise; "positive" where this is more than
+        zero, "negative" where it is less. "seeds": all but holes and what no
         segments part from the outside. The last one with `holes` or `regions`; else "even-odd" with segments, "all" without.
     crossings : str
         What happens where segments cross: "refuse" is a CrossingError, "split" makes points there.

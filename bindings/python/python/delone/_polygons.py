@@ -60,7 +60,7 @@ def triangulate_polygon(polygon: Any, *, fill: str = "even-odd", crossings: str 
         these, which is taken as one. Rings may be closed or not, touch, and share sides. Heights are left out.
     fill : str
         What is inside: "even-odd" what an odd number of rings is around, "nonzero" what rings wind around in sum,
-        counter-clockwise less clockwise.
+        counter-clockwise less clockwise, "positive" where this is more than zero, "negative" where it is less.
     crossings : str
         What happens where sides cross: "refuse" is a CrossingError, "split" makes points there.
 
@@ -127,9 +127,9 @@ def triangulate_polygons(
 def _triangulated(
     flat: _Flat, fill: str, crossings: str, is_one: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
-    nonzero = as_choice(fill, ("even-odd", "nonzero"), "fill") == "nonzero"
+    rule = as_choice(fill, _RULES, "fill")
     split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
-    return _delone.triangulate_polygons(*flat, nonzero, split, is_one)
+    return _delone.triangulate_polygons(*flat, rule, split, is_one)
 
 
 def _offsets(lengths: Any) -> NDArray[np.int64]:
@@ -214,6 +214,7 @@ def rings_of_region(region: Any) -> _Rings | None:
     return _rings_of_mapping(mapping, "region")
 
 
+_RULES = ("even-odd", "nonzero", "positive", "negative")
 _INSIDES = ("Polygon", "MultiPolygon")
 
 

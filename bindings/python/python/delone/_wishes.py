@@ -55,7 +55,7 @@ class Wishes(Wanted):
     coarsen: NDArray[np.bool_] | None
 
 
-FILLS = ("all", "even-odd", "nonzero", "seeds")
+FILLS = ("all", "even-odd", "nonzero", "positive", "negative", "seeds")
 _KEPT = ("nothing", "border", "constraints")
 
 

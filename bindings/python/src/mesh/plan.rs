@@ -193,6 +193,8 @@ impl Plan {
             (Some(known), _) => Fill::Parts(known),
             (None, "even-odd") => Fill::EvenOdd,
             (None, "nonzero") => Fill::NonZero,
+            (None, "positive") => Fill::Positive,
+            (None, "negative") => Fill::Negative,
             (None, "seeds") => Fill::Seeds(&self.seeds),
             (None, _) => Fill::All,
         };

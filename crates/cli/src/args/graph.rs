@@ -45,6 +45,12 @@ pub enum FillName {
     EvenOdd,
     /// Places around which the rings wind, counter-clockwise less clockwise.
     Nonzero,
+    /// Places around which they wind more often counter-clockwise.
+    Positive,
+    /// Places around which they wind more often clockwise.
+    Negative,
+    /// Places in the outer ring of a polygon and in none of its holes, in whatever direction these are.
+    ShellsMinusHoles,
     /// Places that segments separate from the outside, without the holes of a .poly file.
     Seeds,
     /// Everything in the convex hull.

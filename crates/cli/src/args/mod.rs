@@ -42,7 +42,7 @@ pub(crate) use mesh::{ColorName, KeepName, LayerArgs, MeshArgs, PlacementName};
 pub(crate) use periodic::{GridChoice, PeriodicArgs, PeriodicBox};
 pub(crate) use place::PlaceArgs;
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs};
-pub(crate) use polygons::{PolygonFill, PolygonsArgs};
+pub(crate) use polygons::PolygonsArgs;
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use relief::{LightArgs, ReliefArgs, ReliefName};
 pub use run::RunArgs;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use delone::RingFill;
 use delone_io::{Contents, Format};
 
 use super::formats;
@@ -12,6 +13,7 @@ use super::{CrossingsName, WktArgs};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone polygons buildings.geojson -o buildings.ply
+  delone polygons lakes.geojson --fill shells-minus-holes --crossings split -o lakes.ply
   delone polygons countries.wkt --crossings split --keep-going -o triangles.npy --stats stats.json
   delone polygons a.geojson b.geojson -o both.geojson -o both.png
 
@@ -58,6 +60,18 @@ pub(crate) struct PolygonsArgs {
     pub(crate) stats: Option<PathBuf>,
 }
 
+impl PolygonFill {
+    pub(crate) fn rule(self) -> RingFill {
+        match self {
+            Self::EvenOdd => RingFill::EvenOdd,
+            Self::Nonzero => RingFill::NonZero,
+            Self::Positive => RingFill::Positive,
+            Self::Negative => RingFill::Negative,
+            Self::ShellsMinusHoles => RingFill::ShellMinusHoles,
+        }
+    }
+}
+
 /// The rule for the inside of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PolygonFill {
@@ -65,4 +79,10 @@ pub(crate) enum PolygonFill {
     EvenOdd,
     /// Places around which the rings wind, counter-clockwise less clockwise.
     Nonzero,
+    /// Places around which they wind more often counter-clockwise.
+    Positive,
+    /// Places around which they wind more often clockwise.
+    Negative,
+    /// Places in the outer ring and in none of the holes, in whatever direction these are.
+    ShellsMinusHoles,
 }

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use delone::{Constrained2, Domains2, EdgeId};
+use delone::{Constrained2, Domains2, EdgeId, Location2};
 use delone_io::Graph;
 
 use crate::files::Unshown;
+use crate::message::note;
 
 /// Gives each part the polygon that it is in, of several the last, by the row of its attributes; the value of a polygon is the number of its
 /// feature in the input, from 1. Seeds of regions go first, and polygons without rows are none. Tells how many there are.
@@ -19,6 +20,58 @@ pub(super) fn claim(c: &Constrained2, graph: &Graph, inside: &mut Domains2) -> u
     let numbers: Vec<f64> = (0..=*last).map(|row| (row + 1) as f64).collect();
     c.claim_polygons(inside, |segment| rows.get(segment.index()).copied().flatten(), &numbers);
     distinct.len()
+}
+
+/// Leaves out seeds outside of the hull, which are in no part, and tells how many.
+pub(super) fn leave_far_seeds(c: &Constrained2, graph: &mut Graph, quiet: bool) {
+    let is_far = |at: [f64; 2]| matches!(c.locate(at), Ok(Location2::Outside(_)));
+    let before = [graph.holes.len(), graph.regions.len()];
+    graph.holes.retain(|&at| !is_far(at));
+    graph.regions.retain(|region| !is_far(region.at));
+    let left = [before[0] - graph.holes.len(), before[1] - graph.regions.len()];
+    for (count, what) in left.into_iter().zip(["holes", "regions"]) {
+        if count > 0 {
+            note(quiet, format_args!("seeds of {what} outside of the convex hull: {count}, left out"));
+        }
+    }
+}
+
+/// Rings as the library has them: which one a segment is of, and the shell of each.
+pub(super) struct Shells {
+    ring_of: Vec<Option<usize>>,
+    shells: Vec<usize>,
+}
+
+impl Shells {
+    pub(super) fn of(graph: &Graph) -> Self {
+        let mut ring_of = vec![None; graph.segments.len()];
+        let mut shells: Vec<usize> = Vec::with_capacity(graph.rings.len());
+        for (number, ring) in graph.rings.iter().enumerate() {
+            ring_of[ring.segments.clone()].fill(Some(number));
+            let is_hole = ring.ring > 0 && number > 0;
+            shells.push(if is_hole { shells[number - 1] } else { number });
+        }
+        Self { ring_of, shells }
+    }
+
+    /// Places in shells and in none of their holes.
+    pub(super) fn minus_holes(&self, c: &Constrained2) -> Domains2 {
+        c.shells_minus_holes(|s| self.ring_of.get(s.index()).copied().flatten(), &self.shells)
+    }
+
+    /// A remark on holes that are filled at least in part, if there are any.
+    pub(super) fn remark(&self, c: &Constrained2, graph: &Graph, inside: &Domains2) -> Option<String> {
+        let filled = c.filled_holes(inside, |s| self.ring_of.get(s.index()).copied().flatten(), &self.shells);
+        let first = &graph.rings[*filled.first()?];
+        Some(filled_holes(filled.len(), first.polygon, first.ring))
+    }
+}
+
+/// A remark on so many holes that are filled at least in part.
+pub(crate) fn filled_holes(count: usize, polygon: usize, ring: usize) -> String {
+    format!(
+        "holes that are filled at least in part: {count} (polygon {polygon}, ring {ring}); --fill shells-minus-holes leaves them out"
+    )
 }
 
 /// The row of the attributes of each constraint, in the order of these: of the first line on it that has any. Nothing if no line has.

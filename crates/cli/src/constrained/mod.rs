@@ -18,6 +18,7 @@ use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
+use features::Shells;
 
 /// Whether a command is about segments: they were asked for, or files hold them.
 pub fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
@@ -103,7 +104,7 @@ impl Constrained {
 
     /// Triangulates, and tells what a user should know. Where seeds say what is inside bays of the hull may be kept.
     pub(crate) fn of(
-        graph: Graph,
+        mut graph: Graph,
         crossings: CrossingsName,
         (fill, keep_concavities): (FillName, bool),
         label: &Path,
@@ -118,17 +119,32 @@ impl Constrained {
         let phase = Phase::start(quiet, "triangulating");
         let triangulation =
             Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
+        features::leave_far_seeds(&triangulation, &mut graph, quiet);
         let seeds = Seeds2::default().holes(graph.holes.clone()).keep_concavities(keep_concavities);
         // Without polygons, lines are all that can bound an area.
         let lines_bound = !graph.is_border.contains(&true);
         let is_border = |s: SegmentId| lines_bound || graph.is_border.get(s.index()).copied().unwrap_or(true);
-        let fill = match fill {
-            FillName::All => Fill::All,
-            FillName::EvenOdd => Fill::EvenOdd,
-            FillName::Nonzero => Fill::NonZero,
-            FillName::Seeds => Fill::Seeds(&seeds),
+        let within = |fill: Fill| triangulation.domains_within(&fill, is_border).map_err(refused);
+        let shells = Shells::of(&graph);
+        let mut inside = match fill {
+            FillName::All => within(Fill::All)?,
+            FillName::EvenOdd => within(Fill::EvenOdd)?,
+            FillName::Nonzero => within(Fill::NonZero)?,
+            FillName::Positive => within(Fill::Positive)?,
+            FillName::Negative => within(Fill::Negative)?,
+            FillName::Seeds => within(Fill::Seeds(&seeds))?,
+            FillName::ShellsMinusHoles if graph.rings.is_empty() => {
+                let problem = format!(
+                    "{}: --fill shells-minus-holes is for polygons, and there are none",
+                    label.display()
+                );
+                return Err(Failure::new(problem, "give a file of polygons, or --fill even-odd"));
+            }
+            FillName::ShellsMinusHoles => shells.minus_holes(&triangulation),
         };
-        let mut inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
+        if fill != FillName::All && graph.rings.iter().any(|ring| ring.ring > 0) {
+            shells.remark(&triangulation, &graph, &inside).into_iter().for_each(|text| note(quiet, text));
+        }
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
         let polygons = features::claim(&triangulation, &graph, &mut inside);
         files::heed_unshown(features::unshown(&triangulation, &graph, &inside));

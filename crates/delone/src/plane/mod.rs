@@ -32,7 +32,7 @@ mod voronoi;
 pub use arc::{Arc2, arcs_over_shared_chords};
 pub use constrained::{
     Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Part2,
-    PolygonTriangles2, Polygons2, RegionSeed2, Seeds2, SegmentEnds, SegmentId,
+    PolygonTriangles2, Polygons2, RegionSeed2, RingFill, Seeds2, SegmentEnds, SegmentId,
 };
 pub use construct::Algorithm2;
 pub(crate) use construct::{InOrder, in_order};

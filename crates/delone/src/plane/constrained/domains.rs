@@ -28,6 +28,10 @@ pub enum Fill<'a> {
     EvenOdd,
     /// Inside is where the winding number of the segments is not zero.
     NonZero,
+    /// Inside is where it is more than zero: in counter-clockwise rings.
+    Positive,
+    /// Inside is where it is less than zero: in clockwise rings.
+    Negative,
     /// Inside is the hull without its holes, given by a point in each, and without the parts that no constraint separates from the
     /// outside; as Triangle has it.
     Seeds(&'a Seeds2),
@@ -220,7 +224,7 @@ impl Constrained2 {
         self.domains_within(fill, |_| true)
     }
 
-    /// The same, but only some segments are borders for [`Fill::EvenOdd`] and [`Fill::NonZero`]; the others are constraints
+    /// The same, but only some segments are borders for [`Fill::EvenOdd`] and the rules of winding numbers; the others are constraints
     /// with the same on both sides.
     ///
     /// # Errors
@@ -236,12 +240,17 @@ impl Constrained2 {
             Fill::Parts(known) if self.is_parted_by(known) => return Ok((*known).clone()),
             Fill::Parts(_) => return Err(Error::Parts),
             Fill::All => domains.parts.iter_mut().for_each(|part| part.is_inside = true),
-            Fill::EvenOdd | Fill::NonZero => {
+            Fill::EvenOdd | Fill::NonZero | Fill::Positive | Fill::Negative => {
                 let weights = self.weights(is_border);
                 let depths = self.depths(&domains, &weights);
                 for (part, (covered, winding)) in domains.parts.iter_mut().zip(depths) {
                     part.winding = winding;
-                    part.is_inside = if *fill == Fill::EvenOdd { covered % 2 == 1 } else { winding != 0 };
+                    part.is_inside = match fill {
+                        Fill::EvenOdd => covered % 2 == 1,
+                        Fill::Positive => winding > 0,
+                        Fill::Negative => winding < 0,
+                        _ => winding != 0,
+                    };
                 }
             }
             Fill::Seeds(seeds) => {

@@ -46,6 +46,18 @@ impl Constrained2 {
     ) {
         domains.forget_regions();
         domains.regions = attributes.iter().map(|&attribute| Known { attribute, max_area: None }).collect();
+        let mut of = vec![None; domains.parts.len()];
+        self.each_part_within(domains, polygon, |part, around| of[part] = around.last().copied());
+        domains.parts.iter_mut().zip(of).for_each(|(part, region)| part.region = region);
+    }
+
+    /// Calls for each part with the polygons that it is in.
+    pub(super) fn each_part_within(
+        &self,
+        domains: &Domains2,
+        polygon: impl Fn(SegmentId) -> Option<usize>,
+        mut each: impl FnMut(usize, &BTreeSet<usize>),
+    ) {
         let outside = domains.parts.len();
         let borders = self.part_borders(domains);
         let mut is_known = vec![false; outside + 1];
@@ -62,7 +74,7 @@ impl Constrained2 {
             *tried += 1;
             if !std::mem::replace(&mut is_known[next], true) {
                 self.cross(edge, &polygon, &mut around);
-                domains.parts[next].region = around.last().copied();
+                each(next, &around);
                 way.push((next, edge, 0));
             }
         }

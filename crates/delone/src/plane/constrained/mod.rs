@@ -39,6 +39,7 @@ mod patch;
 mod polygons;
 mod refined;
 mod segments;
+mod shells;
 mod split;
 mod trace;
 mod triangulation;
@@ -51,7 +52,7 @@ pub use change::SegmentEnds;
 pub use check::ConstrainedFlaw2;
 pub use domains::{Domains2, Fill, Part2, RegionSeed2, Seeds2};
 pub(in crate::plane) use kept::sorted;
-pub use polygons::{PolygonTriangles2, Polygons2};
+pub use polygons::{PolygonTriangles2, Polygons2, RingFill};
 pub(in crate::plane) use refined::{Before, Origin};
 pub use segments::{Covering2, SegmentId};
 

@@ -6,7 +6,7 @@
 //! Cost: O(n log n) for n corners.
 
 use super::build::constrain;
-use super::{Constrained2, ConstraintReport2, Crossings, Fill};
+use super::{Constrained2, ConstraintReport2, Crossings, Domains2, Fill};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, Place, TriangleId, VertexId};
 use crate::mesh::Mesh2;
@@ -31,11 +31,27 @@ use crate::prefetch::prefetch;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Polygons2 {
-    /// Whether what rings wind around in sum is inside, counter-clockwise less clockwise, rather than what an odd number of
-    /// rings is around.
-    pub nonzero: bool,
+    /// The rule for what is inside.
+    pub fill: RingFill,
     /// The treatment of sides that cross.
     pub crossings: Crossings,
+}
+
+/// The rule for what is inside of the rings of a polygon. To wind is to go around counter-clockwise, less clockwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RingFill {
+    /// Inside is what an odd number of rings is around.
+    #[default]
+    EvenOdd,
+    /// Inside is what the rings wind around in sum, in either direction.
+    NonZero,
+    /// Inside is what they wind around counter-clockwise in sum.
+    Positive,
+    /// Inside is what they wind around clockwise in sum.
+    Negative,
+    /// Inside is what the first ring is around and none of the others, whatever their directions: areas in two holes are left out.
+    ShellMinusHoles,
 }
 
 /// The triangles inside of a polygon.
@@ -66,8 +82,8 @@ impl Polygons2 {
 
     /// With another rule of what is inside.
     #[must_use]
-    pub fn with_nonzero(self, nonzero: bool) -> Self {
-        Self { nonzero, ..self }
+    pub fn with_fill(self, fill: RingFill) -> Self {
+        Self { fill, ..self }
     }
 
     /// Triangulates a polygon, or several as one, given by their rings in any order and direction. The last corner of a ring
@@ -77,27 +93,52 @@ impl Polygons2 {
     /// [`Error::SegmentsCross`] if sides cross, where that is refused: sides are counted as corners are, each by the one it
     /// leaves. [`Error::NotFinite`] and [`Error::TooManyPoints`] as of all corners in a row.
     pub fn triangulate<R: AsRef<[[f64; 2]]>>(&self, rings: &[R]) -> Result<PolygonTriangles2, Error> {
+        self.of_shells(rings, |_| 0)
+    }
+
+    /// The same, with the shell of each ring: of a shell, itself.
+    fn of_shells<R: AsRef<[[f64; 2]]>>(
+        self,
+        rings: &[R],
+        shell: impl Fn(usize) -> usize,
+    ) -> Result<PolygonTriangles2, Error> {
         let count = rings.iter().map(|ring| ring.as_ref().len()).sum();
         check_count(count, MAX_POINTS)?;
-        let mut points: Vec<[f64; 2]> = Vec::with_capacity(count);
-        rings.iter().for_each(|ring| points.extend(ring.as_ref()));
-        check_finite(points.iter().copied())?;
-        if !self.nonzero
-            && let Some(triangles) = odd_depth(&points, rings)
-        {
-            return Ok(PolygonTriangles2 { points, triangles });
+        if self.fill == RingFill::EvenOdd {
+            let points = corners(rings);
+            check_finite(points.iter().copied())?;
+            if let Some(triangles) = odd_depth(&points, rings) {
+                return Ok(PolygonTriangles2 { points, triangles });
+            }
         }
-        let mut sides: Vec<[usize; 2]> = Vec::with_capacity(count);
-        for ring in rings {
-            let first = sides.len();
-            let end = first + ring.as_ref().len();
-            sides.extend((first..end).map(|i| [i, if i + 1 == end { first } else { i + 1 }]));
-        }
+        let (points, sides, of) = sides(rings);
         let c = Constrained2::assemble(points, &sides, self.crossings)?;
-        let domains = c.domains(&if self.nonzero { Fill::NonZero } else { Fill::EvenOdd })?;
+        let domains = self.domains(&c, &of, &(0..rings.len()).map(shell).collect::<Vec<_>>())?;
         let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
         let triangles = inside.map(|t| c.mesh().corners(t).map(VertexId::bits)).collect();
         Ok(PolygonTriangles2 { points: c.into_points(), triangles })
+    }
+
+    /// The holes of each polygon that the rule fills at least in part, by the numbers of their rings, on all threads: the first ring is
+    /// the shell. Nothing of polygons that are refused.
+    pub fn filled_holes_of_all<P: AsRef<[R]> + Sync, R: AsRef<[[f64; 2]]>>(
+        &self,
+        polygons: &[P],
+    ) -> Vec<Vec<usize>> {
+        each_on_all_threads(polygons, |rings| self.filled_holes(rings))
+    }
+
+    fn filled_holes<R: AsRef<[[f64; 2]]>>(self, rings: &[R]) -> Vec<usize> {
+        let of_one = || {
+            let (points, sides, of) = sides(rings);
+            let c = Constrained2::assemble(points, &sides, self.crossings).ok()?;
+            let domains = self.domains(&c, &of, &vec![0; rings.len()]).ok()?;
+            Some(c.filled_holes(&domains, |s| of.get(s.index()).copied(), &vec![0; rings.len()]))
+        };
+        if rings.len() < 2 || self.fill == RingFill::ShellMinusHoles {
+            return Vec::new();
+        }
+        of_one().unwrap_or_default()
     }
 
     /// Triangulates many polygons, each alone, on all threads.
@@ -108,14 +149,53 @@ impl Polygons2 {
         &self,
         polygons: &[P],
     ) -> Vec<Result<PolygonTriangles2, Error>> {
-        let ends = parallel::even_ends(polygons.len(), (8 * parallel::threads()).min(polygons.len()).max(1));
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let runs = starts.zip(ends.iter().copied()).map(|(start, end)| &polygons[start..end]).collect();
-        let results = parallel::map(runs, |run: &[P]| {
-            run.iter().map(|polygon| self.triangulate(polygon.as_ref())).collect::<Vec<_>>()
-        });
-        results.into_iter().flatten().collect()
+        each_on_all_threads(polygons, |rings| self.triangulate(rings))
     }
+
+    /// The parts inside, by the ring of each side and the shell of each ring.
+    fn domains(self, c: &Constrained2, of: &[usize], shells: &[usize]) -> Result<Domains2, Error> {
+        match self.fill {
+            RingFill::EvenOdd => c.domains(&Fill::EvenOdd),
+            RingFill::NonZero => c.domains(&Fill::NonZero),
+            RingFill::Positive => c.domains(&Fill::Positive),
+            RingFill::Negative => c.domains(&Fill::Negative),
+            RingFill::ShellMinusHoles => Ok(c.shells_minus_holes(|s| of.get(s.index()).copied(), shells)),
+        }
+    }
+}
+
+/// A result for each polygon, on all threads.
+fn each_on_all_threads<P: AsRef<[R]> + Sync, R, T: Send>(
+    polygons: &[P],
+    each: impl Fn(&[R]) -> T + Sync,
+) -> Vec<T> {
+    let ends = parallel::even_ends(polygons.len(), (8 * parallel::threads()).min(polygons.len()).max(1));
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let runs = starts.zip(ends.iter().copied()).map(|(start, end)| &polygons[start..end]).collect();
+    let results =
+        parallel::map(runs, |run: &[P]| run.iter().map(|polygon| each(polygon.as_ref())).collect::<Vec<_>>());
+    results.into_iter().flatten().collect()
+}
+
+/// The corners of all rings.
+fn corners<R: AsRef<[[f64; 2]]>>(rings: &[R]) -> Vec<[f64; 2]> {
+    let mut points = Vec::with_capacity(rings.iter().map(|ring| ring.as_ref().len()).sum());
+    rings.iter().for_each(|ring| points.extend(ring.as_ref()));
+    points
+}
+
+/// The corners of all rings, the sides between them, and the ring of each side.
+fn sides<R: AsRef<[[f64; 2]]>>(rings: &[R]) -> (Vec<[f64; 2]>, Vec<[usize; 2]>, Vec<usize>) {
+    let points = corners(rings);
+    let mut sides: Vec<[usize; 2]> = Vec::with_capacity(points.len());
+    let mut of: Vec<usize> = Vec::with_capacity(points.len());
+    for (number, ring) in rings.iter().enumerate() {
+        let first = sides.len();
+        let end = first + ring.as_ref().len();
+        sides.extend((first..end).map(|i| [i, if i + 1 == end { first } else { i + 1 }]));
+        of.resize(end, number);
+    }
+    (points, sides, of)
 }
 
 /// The triangles with an odd number of sides between them and infinity, by one flood, if no side crosses another or has a part
@@ -169,7 +249,7 @@ fn odd_depth<R: AsRef<[[f64; 2]]>>(points: &[[f64; 2]], rings: &[R]) -> Option<V
 
 #[cfg(feature = "geo-types")]
 impl Polygons2 {
-    /// Triangulates the polygons of a [`geo_types::MultiPolygon`] as one.
+    /// Triangulates the polygons of a [`geo_types::MultiPolygon`] as one, each with holes of its own.
     ///
     /// # Errors
     /// Those of [`Self::triangulate`].
@@ -183,6 +263,9 @@ impl Polygons2 {
         let of_one = |p: &geo_types::Polygon<T>| -> Vec<Vec<[f64; 2]>> {
             std::iter::once(p.exterior()).chain(p.interiors()).map(ring).collect()
         };
-        self.triangulate(&polygons.iter().flat_map(of_one).collect::<Vec<_>>())
+        let mut shells: Vec<usize> = Vec::new();
+        let count = |polygon: &geo_types::Polygon<T>| 1 + polygon.interiors().len();
+        polygons.iter().for_each(|polygon| shells.resize(shells.len() + count(polygon), shells.len()));
+        self.of_shells(&polygons.iter().flat_map(of_one).collect::<Vec<_>>(), |ring| shells[ring])
     }
 }
