@@ -66,6 +66,6 @@ fn seeds_outside_of_the_hull_are_told_and_left_out() {
         let told = text(&output.stderr);
         assert!(told.contains("note: seeds of holes outside of the convex hull: 1, left out"), "{told}");
     }
-    place.file("on.poly", &poly.replace("1 9 9", "1 4 2"));
+    place.file("on.poly", poly.replace("1 9 9", "1 4 2"));
     place.fail("mesh on.poly -o t.ply", 1, "on a constraint");
 }
