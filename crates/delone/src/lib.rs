@@ -173,7 +173,7 @@ pub use plane::{
     OrderCircle2, OrderK2, OrderRegion2, Part2, Placement, PolygonTriangles2, Polygons2, Power2, Prescribed2,
     Quads2, Reason, Refined2, Refinement, RefinementReport2, Region2, RegionSeed2, Regular2, Relaxation2,
     Ring, RingFill, Seeds2, SegmentEnds, SegmentId, Shapes2, Step2, Unrefined2, Voronoi2, VoronoiEdge2,
-    arcs_over_shared_chords,
+    Weld2, arcs_over_shared_chords,
 };
 pub use points::{Bounds, Position2, Position3};
 pub use regular::{RegularFlaw, Reweighed};

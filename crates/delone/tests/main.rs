@@ -47,3 +47,4 @@ mod verify;
 mod verify_segments;
 mod verify_weights;
 mod voronoi;
+mod weld;

@@ -8,7 +8,7 @@ use crate::{Point2, Point3, Sign, exact};
 /// two roundings of differences, one of a product, one of a sum.
 pub(crate) const ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
-const SMALLEST: f64 = 1e-290;
+pub(crate) const SMALLEST: f64 = 1e-290;
 
 /// Compares the distances of `a` and of `b` from `q`: `Less` if `a` is nearer.
 ///

@@ -54,6 +54,7 @@ mod pencil;
 mod perturb;
 mod plane;
 mod power;
+mod segment;
 mod side_in_plane;
 mod sign;
 mod solid;
@@ -92,6 +93,7 @@ pub use power::{
     compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
     in_power_sphere_with_ties,
 };
+pub use segment::compare_segment_with_radius;
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
 pub use solid::{Corner3, HalfSpace, HalfSpaces};

@@ -3,6 +3,7 @@
 mod alpha;
 mod arc;
 mod around;
+mod boxes;
 mod change;
 pub(crate) mod check;
 mod constrained;
@@ -28,6 +29,7 @@ mod regular;
 mod triangulation;
 pub(crate) mod verify;
 mod voronoi;
+mod weld;
 
 pub use arc::{Arc2, arcs_over_shared_chords};
 pub use constrained::{
@@ -52,3 +54,4 @@ pub use refine::{
 pub use region::Region2;
 pub use regular::{Jacobian2, Power2, Prescribed2, Regular2};
 pub use voronoi::{Cell2, Cells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};
+pub use weld::Weld2;

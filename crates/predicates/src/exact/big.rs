@@ -30,6 +30,16 @@ pub(crate) fn integers(numbers: &[f64]) -> (Vec<BigInt>, i32) {
     (parts.into_iter().map(integer).collect(), scale)
 }
 
+/// The distance of the first point from the line through two others against a radius.
+pub(crate) fn compare_line_with_radius(numbers: &[f64; 7]) -> Ordering {
+    let (x, _) = integers(numbers);
+    let from = |i: usize| [&x[i] - &x[2], &x[i + 1] - &x[3]];
+    let (d, e) = (from(4), from(0));
+    let area = &d[0] * &e[1] - &d[1] * &e[0];
+    let length = &d[0] * &d[0] + &d[1] * &d[1];
+    (&area * &area).cmp(&(&x[6] * &x[6] * length))
+}
+
 fn difference(q: &Vector, p: &Vector) -> Vector {
     [&q[0] - &p[0], &q[1] - &p[1]]
 }

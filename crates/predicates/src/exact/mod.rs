@@ -83,6 +83,12 @@ pub(crate) fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering
 }
 
 #[cold]
+#[inline(never)]
+pub(crate) fn compare_line_with_radius(q: Point2, [a, b]: [Point2; 2], radius: f64) -> Ordering {
+    big::compare_line_with_radius(&[q[0], q[1], a[0], a[1], b[0], b[1], radius])
+}
+
+#[cold]
 pub(crate) fn compare_distances3(q: Point3, a: Point3, b: Point3) -> Ordering {
     let mut coordinates = [0.0; 9];
     coordinates.copy_from_slice([q, a, b].as_flattened());

@@ -14,7 +14,6 @@
 //! Cost: O(n log n) for n vertices of the layers, and a copy of the triangulation.
 
 mod border;
-mod boxes;
 mod build;
 mod chains;
 mod polygon;

@@ -10,10 +10,10 @@ use crate::error::Error;
 use crate::ids::Place;
 
 use super::super::mesher::Mesher;
-use super::boxes::{Boxes, span};
 use super::chains::Chains;
 use super::polygon::{are_apart, is_convex, leads_away};
 use super::ribs::Ribs;
+use crate::plane::boxes::{Boxes, span};
 
 /// The space that columns keep before themselves, in lengths of sides: half of what is between two, so that an edge there is 0.6 long.
 const BEFORE_COLUMNS: f64 = 0.3;

@@ -5,14 +5,14 @@
 use crate::sorting;
 
 /// The least and greatest coordinates.
-pub(super) type Span = [[f64; 2]; 2];
+pub(in crate::plane) type Span = [[f64; 2]; 2];
 
 /// Boxes of a leaf.
 const LEAF_BOXES: usize = 4;
 
 /// See the module.
 #[derive(Debug, Default)]
-pub(super) struct Boxes {
+pub(in crate::plane) struct Boxes {
     spans: Vec<Span>,
     /// Indices of boxes: halves of halves are near in the plane.
     order: Vec<u32>,
@@ -21,7 +21,7 @@ pub(super) struct Boxes {
 }
 
 /// The box of some points.
-pub(super) fn span(points: &[[f64; 2]]) -> Span {
+pub(in crate::plane) fn span(points: &[[f64; 2]]) -> Span {
     let of =
         |start: f64, pick: fn(f64, f64) -> f64| [0, 1].map(|k| points.iter().map(|p| p[k]).fold(start, pick));
     [of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max)]
@@ -32,7 +32,7 @@ fn meet(one: &Span, other: &Span) -> bool {
 }
 
 impl Boxes {
-    pub(super) fn new(spans: Vec<Span>) -> Self {
+    pub(in crate::plane) fn new(spans: Vec<Span>) -> Self {
         let order = (0..spans.len() as u32).collect();
         let mut boxes = Self { spans, order, around: Vec::new() };
         boxes.part(0, 0, boxes.spans.len());
@@ -60,7 +60,7 @@ impl Boxes {
     }
 
     /// Tells the boxes that meet a box, by index.
-    pub(super) fn each(&self, asked: &Span, mut each: impl FnMut(usize)) {
+    pub(in crate::plane) fn each(&self, asked: &Span, mut each: impl FnMut(usize)) {
         let mut rest = vec![(0, 0, self.spans.len())];
         while let Some((node, low, high)) = rest.pop() {
             if !meet(&self.around[node], asked) {
