@@ -22,7 +22,8 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_attributes(Contents::Patches);
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
-    let graph = files::polygons(&input, quiet)?;
+    let mut graph = files::polygons(&input, quiet)?;
+    files::weld(&mut graph, args.weld, &input.label(), &mut stats, quiet)?;
     let polygons = corners(&graph);
     if graph.is_border.contains(&false) {
         lost(quiet, "lines are left out: they are no polygons");

@@ -19,17 +19,11 @@ use crate::sites;
 use crate::stats::Stats;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
-    refuse_numbers(args)?;
-    if !args.bounds.is_empty() && args.clip != Path::new("box") {
-        return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
-    }
+    refuse(args)?;
     if args.dim.is_space() {
         return polyhedra::run(args, quiet);
     }
     args.space.refuse_in_plane()?;
-    if args.cut.is_given() {
-        return Err(Failure::usage("--cut is for space", "add --dim 3, or leave it out"));
-    }
     let polygon = is_polygon(args);
     let mut inputs = args.input.paths();
     if polygon {
@@ -53,7 +47,8 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     if args.weights.given().is_some() || args.areas.is_some() {
         return powers::run(args, &outputs, sites_format, stats, quiet);
     }
-    let (points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
+    let (mut points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
+    files::weld_points(&mut points, args.weld, &args.input.label(), &mut stats, quiet)?;
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
     stats.phase("read");
     let build = |points: &[[f64; 2]]| room::build(points, Delaunay2::FASTEST, &args.input.label(), quiet);
@@ -118,4 +113,23 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
+}
+
+/// Refuses numbers and options that do not go together.
+fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
+    refuse_numbers(args)?;
+    if !args.bounds.is_empty() && args.clip != Path::new("box") {
+        return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
+    }
+    let is_plain = !args.dim.is_space()
+        && args.space.periodic.is_none()
+        && args.weights.given().is_none()
+        && args.areas.is_none();
+    if args.weld.is_some() && !is_plain {
+        return Err(Failure::usage("--weld is for points in the plane without weights", "leave it out"));
+    }
+    if args.cut.is_given() && !args.dim.is_space() {
+        return Err(Failure::usage("--cut is for space", "add --dim 3, or leave it out"));
+    }
+    Ok(())
 }

@@ -49,5 +49,6 @@ mod terrain;
 mod threads;
 mod tiles;
 mod weights;
+mod weld;
 mod window;
 mod wkt;

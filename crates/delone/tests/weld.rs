@@ -135,7 +135,8 @@ fn a_tolerance_larger_than_the_set_leaves_one_point() {
 
 #[test]
 fn nearly_equal_rings_become_one() {
-    let ring = |k: usize| (0..12).map(move |i| (f64::from(i) * 0.5235987755982988, 1.0 + k as f64 * 1e-9));
+    let ring =
+        |k: usize| (0..12).map(move |i| (f64::from(i) * std::f64::consts::FRAC_PI_6, 1.0 + k as f64 * 1e-9));
     let points: Vec<[f64; 2]> = (0..1000).flat_map(ring).map(|(t, r)| [r * t.cos(), r * t.sin()]).collect();
     let segments: Vec<[usize; 2]> = (0..12_000).map(|i| [i, i / 12 * 12 + (i + 1) % 12]).collect();
     let welded = Weld2::new(&points, &segments, 1e-5).expect("finite");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::formats;
+use super::{formats, length};
 
 /// Segments, and what they mean.
 #[derive(Clone, Debug, Default, Args)]
@@ -13,6 +13,9 @@ pub struct GraphArgs {
     /// Segments between the points.
     #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
+    /// Join what nearly touches: points at most this far apart become one, and vertices at most this far from a segment become part of it.
+    #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
+    pub(crate) weld: Option<f64>,
     /// Treatment of segments that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,
@@ -25,7 +28,7 @@ pub struct GraphArgs {
 impl GraphArgs {
     /// Whether anything was asked for that needs segments.
     pub(crate) fn is_given(&self) -> bool {
-        self.segments.is_some() || self.crossings.is_some() || self.fill.is_some()
+        self.segments.is_some() || self.weld.is_some() || self.crossings.is_some() || self.fill.is_some()
     }
 }
 

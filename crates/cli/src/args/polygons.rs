@@ -7,7 +7,7 @@ use delone::RingFill;
 use delone_io::{Contents, Format};
 
 use super::formats;
-use super::{CrossingsName, WktArgs};
+use super::{CrossingsName, WktArgs, length};
 
 /// Triangulate polygons.
 #[derive(Debug, Args)]
@@ -46,6 +46,9 @@ pub(crate) struct PolygonsArgs {
     /// The rule for the inside of a polygon.
     #[arg(long, value_name = "RULE", default_value = "even-odd")]
     pub(crate) fill: PolygonFill,
+    /// Join what nearly touches: points at most this far apart become one, and vertices at most this far from a side become part of it.
+    #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
+    pub(crate) weld: Option<f64>,
     /// Treatment of sides of a polygon that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,

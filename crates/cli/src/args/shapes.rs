@@ -176,6 +176,9 @@ pub(crate) struct VoronoiArgs {
     /// largest coordinate.
     #[arg(long, value_name = "LENGTH|auto", value_parser = Merge::parse, allow_negative_numbers = true)]
     pub(crate) merge: Option<Merge>,
+    /// Sites at most this far apart become one, before the cells are made.
+    #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
+    pub(crate) weld: Option<f64>,
     /// Where which K sites are the nearest: the diagram of order K, at most the number of sites.
     #[arg(long, value_name = "K", conflicts_with_all = ["relax", "tolerance", "weights", "radii"])]
     pub(crate) order: Option<usize>,

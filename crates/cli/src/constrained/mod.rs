@@ -93,6 +93,7 @@ impl Constrained {
         quiet: bool,
     ) -> Result<Self, Failure> {
         let mut graph = files::graph(input, args.segments.as_deref(), quiet)?;
+        files::weld(&mut graph, args.weld, &input.label(), stats, quiet)?;
         if let Some(heights) = &mut graph.cloud.z {
             rule.settle_equal(&graph.cloud.xy, heights);
         }

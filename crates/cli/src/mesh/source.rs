@@ -56,6 +56,10 @@ pub(super) fn with(stem: &Path, extension: &str) -> PathBuf {
 impl Sources {
     /// The sources that a command line names.
     pub(super) fn of(args: &MeshArgs) -> Result<Self, Failure> {
+        if args.graph.weld.is_some() && args.refine.is_some() {
+            let help = "weld the outline before it is meshed, or leave --weld out";
+            return Err(Failure::usage("--weld is not for triangles that are refined", help));
+        }
         let mut sources = Self {
             input: args.input.clone(),
             segments: args.graph.segments.clone(),
@@ -113,6 +117,7 @@ impl Sources {
         quiet: bool,
     ) -> Result<Material, Failure> {
         let (mut graph, besides) = files::graph_with_points(&self.input, self.segments.as_deref(), quiet)?;
+        files::weld(&mut graph, args.graph.weld, &self.input.label(), stats, quiet)?;
         let mut fill = args.graph.fill.unwrap_or_else(|| usual(&self.input, &graph));
         if !self.has_segments {
             graph = Graph {
