@@ -55,6 +55,7 @@ mod tiles;
 mod triangulate;
 mod voronoi;
 mod weighted;
+mod weld;
 
 use std::process::ExitCode;
 

@@ -11,6 +11,7 @@ use crate::files;
 use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
+use crate::weld;
 
 /// Polygons left out that are named; more are counted.
 const NAMED: usize = 10;
@@ -23,7 +24,7 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
     let mut graph = files::polygons(&input, quiet)?;
-    files::weld(&mut graph, args.weld, &input.label(), &mut stats, quiet)?;
+    weld::weld(&mut graph, args.weld, &input.label(), &mut stats, quiet)?;
     let polygons = corners(&graph);
     if graph.is_border.contains(&false) {
         lost(quiet, "lines are left out: they are no polygons");

@@ -17,6 +17,7 @@ use crate::repeated;
 use crate::room::{self, Room};
 use crate::sites;
 use crate::stats::Stats;
+use crate::weld;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     refuse(args)?;
@@ -48,7 +49,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return powers::run(args, &outputs, sites_format, stats, quiet);
     }
     let (mut points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
-    files::weld_points(&mut points, args.weld, &args.input.label(), &mut stats, quiet)?;
+    weld::weld_points(&mut points, args.weld, &args.input.label(), &mut stats, quiet)?;
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
     stats.phase("read");
     let build = |points: &[[f64; 2]]| room::build(points, Delaunay2::FASTEST, &args.input.label(), quiet);

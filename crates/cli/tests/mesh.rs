@@ -440,7 +440,7 @@ fn hostile_files_are_named() {
     place.fail("mesh inf.poly -o m.vtu", 1, "point 2");
     place.file("far.poly", PLAN.replace("9 9 10 -4", "9 9 11 -4"));
     place.fail("mesh far.poly -o m.vtu", 1, "line");
-    place.file("seed.poly", PLAN.replace("1 4 4\n", "1 40 4\n"));
+    place.file("seed.poly", PLAN.replace("1 4 4\n", "1 9 9\n"));
     place.fail("mesh seed.poly -o m.vtu", 1, "the seed of hole 0");
     let bowtie = "4 2 0 0\n1 0 0\n2 2 2\n3 2 0\n4 0 2\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
     place.file("bowtie.poly", bowtie);

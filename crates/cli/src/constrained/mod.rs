@@ -18,6 +18,7 @@ use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
+use crate::weld;
 use features::Shells;
 
 /// Whether a command is about segments: they were asked for, or files hold them.
@@ -93,7 +94,7 @@ impl Constrained {
         quiet: bool,
     ) -> Result<Self, Failure> {
         let mut graph = files::graph(input, args.segments.as_deref(), quiet)?;
-        files::weld(&mut graph, args.weld, &input.label(), stats, quiet)?;
+        weld::weld(&mut graph, args.weld, &input.label(), stats, quiet)?;
         if let Some(heights) = &mut graph.cloud.z {
             rule.settle_equal(&graph.cloud.xy, heights);
         }

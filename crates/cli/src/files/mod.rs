@@ -5,7 +5,6 @@ mod attributes;
 mod graphs;
 mod sides;
 mod systems;
-mod weld;
 mod write;
 
 use std::io::{BufReader, Cursor, Read};
@@ -25,7 +24,6 @@ pub use graphs::graph;
 pub(crate) use graphs::{graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
-pub(crate) use weld::{weld, weld_points};
 pub(crate) use write::{cannot_write, create, finish, folder_of, publish, scratch, write_mesh};
 pub use write::{write, write_own};
 

@@ -13,6 +13,7 @@ use crate::constrained::usual;
 use crate::files;
 use crate::message::Failure;
 use crate::stats::Stats;
+use crate::weld;
 
 /// The files that are read.
 pub(super) struct Sources {
@@ -117,7 +118,7 @@ impl Sources {
         quiet: bool,
     ) -> Result<Material, Failure> {
         let (mut graph, besides) = files::graph_with_points(&self.input, self.segments.as_deref(), quiet)?;
-        files::weld(&mut graph, args.graph.weld, &self.input.label(), stats, quiet)?;
+        weld::weld(&mut graph, args.graph.weld, &self.input.label(), stats, quiet)?;
         let mut fill = args.graph.fill.unwrap_or_else(|| usual(&self.input, &graph));
         if !self.has_segments {
             graph = Graph {
