@@ -90,6 +90,8 @@ fn replace_segments(graph: &mut Graph, welded: &Weld2, given: &[[f64; 2]]) -> us
     graph.markers = graph.markers.as_deref().map(of_origins);
     graph.is_border =
         welded.origins.iter().map(|&s| graph.is_border.get(s).copied().unwrap_or(true)).collect();
+    // Pieces start at vertices of other features, too.
+    graph.rows = Some(welded.origins.iter().map(|&segment| graph.row_of_segment(segment)).collect());
     graph.segments.clone_from(&welded.segments);
     arcs - graph.arcs.len()
 }

@@ -82,3 +82,23 @@ fn sites_and_points_are_joined() {
         "--weld is not for triangles that are refined",
     );
 }
+
+/// Lines and polygons keep their own attributes where they start at a vertex of another one.
+#[test]
+fn attributes_stay_with_their_features() {
+    let place = Place::new();
+    let feature = |name: &str, kind: &str, corners: &str| {
+        format!(
+            r#"{{"type":"Feature","properties":{{"n":"{name}"}},"geometry":{{"type":"{kind}","coordinates":{corners}}}}}"#
+        )
+    };
+    let left = feature("left", "Polygon", "[[[0,0],[1,0],[1,2],[0,2],[0,0]]]");
+    let right = feature("right", "Polygon", "[[[1.00000001,0],[2,0],[2,2],[1.00000001,2],[1.00000001,0]]]");
+    place.file("p.geojson", format!(r#"{{"type":"FeatureCollection","features":[{left},{right}]}}"#));
+    for command in ["triangulate", "mesh", "polygons"] {
+        place.succeed(&format!("-q {command} p.geojson --weld 1e-6 -o t.geojson"));
+        let written = std::fs::read_to_string(place.path("t.geojson")).expect("features");
+        let counts = ["left", "right"].map(|name| written.matches(&format!("\"{name}\"")).count());
+        assert_eq!(counts, [2, 2], "{command}: {written}");
+    }
+}

@@ -20,6 +20,8 @@ pub struct Graph {
     pub segments: Vec<[usize; 2]>,
     /// For each segment, whether it bounds an area: rings of polygons and the segments of `.poly` files do, lines do not.
     pub is_border: Vec<bool>,
+    /// The row of each segment's attributes ([`Cloud::features`]), where it is not that of the point that the segment starts at.
+    pub rows: Option<Vec<Option<usize>>>,
     /// The segments that are chords of arcs, by increasing index, with the centers of their circles.
     pub arcs: Vec<(usize, [f64; 2])>,
     /// A number for each segment, where the file has them.
@@ -84,8 +86,15 @@ impl Graph {
 
     /// The row of a ring's attributes ([`Cloud::features`]), if it has any.
     pub fn row_of(&self, ring: &GraphRing) -> Option<usize> {
-        let first = self.segments.get(ring.segments.start).filter(|_| !ring.segments.is_empty())?;
-        self.cloud.features.row(first[0])
+        self.row_of_segment(ring.segments.start).filter(|_| !ring.segments.is_empty())
+    }
+
+    /// The row of a segment's attributes, if it has any.
+    pub fn row_of_segment(&self, segment: usize) -> Option<usize> {
+        match &self.rows {
+            Some(rows) => rows.get(segment).copied().flatten(),
+            None => self.cloud.features.row(self.segments.get(segment)?[0]),
+        }
     }
 
     /// Makes one graph of two files: points, segments, rings and seeds of the other follow ours. Markers that a file does

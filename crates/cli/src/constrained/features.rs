@@ -83,8 +83,8 @@ pub(crate) fn of_lines(c: &Constrained2, graph: &Graph) -> Option<Vec<Option<usi
 
 /// The row of each segment that is no side of a polygon.
 pub(crate) fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
-    let row = |&[start, _]: &[usize; 2]| graph.cloud.features.row(start);
-    let mut rows: Vec<Option<usize>> = graph.segments.iter().map(row).collect();
+    let mut rows: Vec<Option<usize>> =
+        (0..graph.segments.len()).map(|segment| graph.row_of_segment(segment)).collect();
     graph.rings.iter().for_each(|ring| rows[ring.segments.clone()].fill(None));
     rows
 }
