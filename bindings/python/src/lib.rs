@@ -35,6 +35,7 @@ mod terrain;
 mod tiles;
 mod triangulation;
 mod voronoi;
+mod weld;
 
 use pyo3::prelude::*;
 
@@ -57,6 +58,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(tiles::triangulate_tile, m)?)?;
     m.add_function(wrap_pyfunction!(tiles::join_borders, m)?)?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
+    m.add_function(wrap_pyfunction!(weld::weld, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::arcs::divide_arcs, m)?)?;
     m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(surface::interpolate, m)?)?;

@@ -20,21 +20,22 @@ type Ragged<'py> = (
     Bound<'py, PyArray1<i64>>,
 );
 
-/// The triangles inside of polygons, each alone: their corners, where each ring begins and where all end, and where each
-/// polygon begins among the rings and where all end. An error names its polygon unless there is but one.
+/// The triangles inside of polygons, each alone: their corners, where each ring begins and where all end, where each part begins among
+/// the rings, and where each polygon begins among the parts. An error names its polygon unless there is but one.
 #[pyfunction]
 pub fn triangulate_polygons<'py>(
     py: Python<'py>,
     corners: PyReadonlyArray2<'py, f64>,
-    rings: PyReadonlyArray1<'py, i64>,
-    polygons: PyReadonlyArray1<'py, i64>,
+    starts: (PyReadonlyArray1<'py, i64>, PyReadonlyArray1<'py, i64>, PyReadonlyArray1<'py, i64>),
     fill: &str,
     split: bool,
     is_one: bool,
 ) -> PyResult<Ragged<'py>> {
     let corners: Vec<[f64; 2]> = coordinates(&corners)?;
+    let (rings, parts, polygons) = starts;
     let rings = offsets(&rings, corners.len())?;
-    let polygons = offsets(&polygons, rings.len() - 1)?;
+    let parts = offsets(&parts, rings.len() - 1)?;
+    let polygons = offsets(&polygons, parts.len() - 1)?;
     TRIANGULATION.check_with(2, 0, corners.len().saturating_mul(40))?;
     let size = work(corners.len(), corners.len(), split);
     let fill = match fill {
@@ -42,18 +43,20 @@ pub fn triangulate_polygons<'py>(
         "nonzero" => RingFill::NonZero,
         "positive" => RingFill::Positive,
         "negative" => RingFill::Negative,
+        "shells-minus-holes" => RingFill::ShellMinusHoles,
         other => return Err(PyValueError::new_err(format!("no such fill: {other}"))),
     };
     let how = Polygons2::default().with_fill(fill);
     let how = how.with_crossings(if split { Crossings::Split } else { Crossings::Refuse });
     let done = interruptible(py, size, move || {
         let ring = |pair: &[usize]| &corners[pair[0]..pair[1]];
-        let of_one = |pair: &[usize]| rings[pair[0]..=pair[1]].windows(2).map(ring).collect::<Vec<_>>();
-        let given: Vec<Vec<&[[f64; 2]]>> = polygons.windows(2).map(of_one).collect();
+        let part = |pair: &[usize]| rings[pair[0]..=pair[1]].windows(2).map(ring).collect::<Vec<_>>();
+        let of_one = |pair: &[usize]| parts[pair[0]..=pair[1]].windows(2).map(part).collect::<Vec<_>>();
+        let given: Vec<Vec<Vec<&[[f64; 2]]>>> = polygons.windows(2).map(of_one).collect();
         let done = if size < SERIAL_ITEMS {
-            given.iter().map(|rings| how.triangulate(rings)).collect()
+            given.iter().map(|parts| how.triangulate_parts(parts)).collect()
         } else {
-            how.triangulate_all(&given)
+            how.triangulate_all_parts(&given)
         };
         Flat::of(done)
     })?;

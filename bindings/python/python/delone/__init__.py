@@ -53,6 +53,8 @@ from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, t
 from ._regular import PowerDiagram, RegularTriangulation
 from ._terrain import ContourBand, ContourLine, Simplified, contours, rasterize, simplify
 from ._voronoi import Voronoi
+from ._weld import weld
+from ._welded import Welded
 
 # Threads do not survive a fork.
 if hasattr(os, "register_at_fork"):
@@ -89,6 +91,7 @@ __all__ = [
     "SecondOrder",
     "Simplified",
     "Voronoi",
+    "Welded",
     "beta_skeleton",
     "contours",
     "dtm",
@@ -104,4 +107,5 @@ __all__ = [
     "triangle",
     "triangulate_polygon",
     "triangulate_polygons",
+    "weld",
 ]

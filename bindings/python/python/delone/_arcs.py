@@ -36,17 +36,22 @@ class SecondOrder(NamedTuple):
 
 def chords_of(points: NDArray[np.float64], segments: NDArray[np.int64], centers: ArrayLike) -> Chords:
     """Divides arcs, whose centers are not NaN."""
+    return Chords(*_delone.divide_arcs(points, segments, centers_of(centers, len(segments))))
+
+
+def centers_of(centers: ArrayLike, count: int) -> NDArray[np.float64]:
+    """A center or NaN for each segment, checked."""
     array = np.array(as_numbers(centers, "centers"), dtype=np.float64)
-    if array.shape != (len(segments), 2):
-        raise ValueError(f"centers must have the shape ({len(segments)}, 2), one for each segment, not {array.shape}")
-    return Chords(*_delone.divide_arcs(points, segments, array))
+    if array.shape != (count, 2):
+        raise ValueError(f"centers must have the shape ({count}, 2), one for each segment, not {array.shape}")
+    return array
 
 
-def renamed(error: CrossingError, origins: NDArray[np.int64]) -> CrossingError:
+def renamed(error: CrossingError, origins: NDArray[np.int64], which: str = "") -> CrossingError:
     """By the segments that were given."""
     one, other = origins[[error.first, error.second]].tolist()
     x, y = error.near
-    words = f"segments {one} and {other}, or the chords of their arcs, cross near ({x:g}, {y:g})"
+    words = f"segments {one} and {other}{which} cross near ({x:g}, {y:g})"
     return CrossingError(words, one, other, error.near, error.count)
 
 

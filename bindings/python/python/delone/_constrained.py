@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._errors import restores
+from ._arcs import renamed
+from ._errors import CrossingError, restores
 from ._kept import Kept
 from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries
 from ._polygons import points_and_segments
+from ._welded import Welded, welded_of
 
 _FILLS = ("all", "even-odd", "nonzero", "positive", "negative", "seeds")
 _CROSSINGS = ("refuse", "split")
@@ -45,6 +47,9 @@ class ConstrainedDelaunay(Kept):
         What happens where segments cross: "refuse" is a CrossingError, "split" makes points there.
     keep_concavities : bool
         With "seeds": what no segments part from the outside is inside.
+    weld : float, optional
+        A distance: points and segments nearer to each other become one first, as `delone.weld` has it. Rows of segments are then
+        those of `welded.segments`.
 
     Raises
     ------
@@ -75,6 +80,7 @@ class ConstrainedDelaunay(Kept):
         fill: str | None = None,
         crossings: str = "refuse",
         keep_concavities: bool = False,
+        weld: float | None = None,
     ) -> None:
         """Triangulates points and segments."""
         given, ends, has_inside = points_and_segments(points, segments)
@@ -86,9 +92,17 @@ class ConstrainedDelaunay(Kept):
             raise ValueError(f"holes, regions and keep_concavities are for fill='seeds', not {self._fill!r}")
         self._holes = np.array(_seeds(holes, "holes"))
         self._regions, self._values = _regions(regions)
+        #: What welding did; None without it.
+        self.welded: Welded | None = None
+        if weld is not None:
+            self.welded = welded_of(given, ends, weld)
+            given, ends = self.welded[:2]
         self._split = as_choice(crossings, _CROSSINGS, "crossings") == "split"
         self._origin = (given, ends)
-        self._begin(_delone.Constrained(given, ends, self._split))
+        try:
+            self._begin(_delone.Constrained(given, ends, self._split))
+        except CrossingError as error:
+            raise error if self.welded is None else renamed(error, self.welded.origins) from None
         if self._fill == "seeds":
             # What is wrong with seeds is told now.
             self._parts()

@@ -53,6 +53,7 @@ __all__ = [
     "thin",
     "transforms",
     "triangulate_polygons",
+    "weld",
     "triangulate_tile",
     "vertex_gradients",
     "vertex_neighbors",
@@ -271,12 +272,14 @@ def divide_arcs(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
 def triangulate_polygons(
     corners: NDArray[np.float64],
-    rings: NDArray[np.int64],
-    polygons: NDArray[np.int64],
+    starts: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
     fill: str,
     split: bool,
     is_one: bool,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
+def weld(
+    points: NDArray[np.float64], segments: NDArray[np.int64], tolerance: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], tuple[int, float, int, int]]: ...
 def after_fork() -> None: ...
 def lists(starts: NDArray[np.int64], items: NDArray[np.int64]) -> list[list[int]]: ...
 def is_finite(array: NDArray[np.float64]) -> bool: ...

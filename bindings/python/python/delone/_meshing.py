@@ -11,6 +11,7 @@ from ._layers import Layers, layers_of
 from ._mesh import Mesh
 from ._points import as_choice, as_flag, as_numbers
 from ._polygons import points_and_segments
+from ._welded import welded_centers, welded_of
 from ._wishes import FILLS, PLAIN, Size, Test, Wishes, regions_of, seeds_of, triangles_of, wanted_of
 
 
@@ -38,6 +39,7 @@ def mesh(
     fill: str | None = None,
     crossings: str = "refuse",
     keep_concavities: bool = False,
+    weld: float | None = None,
 ) -> Mesh:
     """Meshes what segments bound: a constrained Delaunay triangulation with new points, so that its triangles have no small
     angles and are no larger than wanted.
@@ -108,6 +110,9 @@ def mesh(
         What happens where segments cross: "refuse" is a CrossingError, "split" makes points there.
     keep_concavities : bool
         With "seeds": what no segments part from the outside is inside.
+    weld : float, optional
+        A distance: points and segments nearer to each other become one first, as `delone.weld` has it. An arc whose chord changes
+        becomes straight.
 
     Raises
     ------
@@ -161,6 +166,8 @@ def mesh(
         first = Mesh._of_triangles(given, ends, split, corners, known)
         if centers is not None:
             raise ValueError("centers are for points and segments: sides of triangles that are given are straight")
+        if weld is not None:
+            raise ValueError("weld is for points and segments: triangles that are given stay")
         if layers is not None:
             raise ValueError("layers are for points and segments: triangles that are given stay")
         again: Wishes = {**PLAIN, **wanted}
@@ -176,17 +183,25 @@ def mesh(
     wishes["fill"], wishes["holes"], wishes["regions"] = filled, seeds_of(holes), seeds
     wishes["keep_concavities"] = concave
     wishes["layers"] = None if layers is None else layers_of(layers, len(ends))
-    if centers is None:
+    if centers is None and weld is None:
         return Mesh._make((given, ends, split), wishes, of_regions)
-    chords = chords_of(given, ends, centers)
-    wishes["arcs"] = chords.rows, chords.centers
+    origins = np.arange(len(ends))
+    if weld is not None:
+        welded = welded_of(given, ends, weld)
+        if centers is not None:
+            centers = welded_centers(welded, given, ends, centers)
+        given, ends, origins = welded.points, welded.segments, welded.origins
+    if centers is not None:
+        chords = chords_of(given, ends, centers)
+        wishes["arcs"] = chords.rows, chords.centers
+        given, ends, origins = chords.points, chords.segments, origins[chords.origins]
     if wishes["layers"] is not None and wishes["layers"][4] is not None:
-        along = np.flatnonzero(np.isin(chords.origins, wishes["layers"][4])).tolist()
+        along = np.flatnonzero(np.isin(origins, wishes["layers"][4])).tolist()
         wishes["layers"] = (*wishes["layers"][:4], along)
     try:
-        return Mesh._make((chords.points, chords.segments, split, chords.origins), wishes, of_regions)
+        return Mesh._make((given, ends, split, origins), wishes, of_regions)
     except CrossingError as error:
-        raise renamed(error, chords.origins) from None
+        raise renamed(error, origins, "" if centers is None else ", or the chords of their arcs,") from None
 
 
 def _attributes(values: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 from . import _delone
 from ._geometries import as_mapping, box_of, column_of, geometry_type
 from ._points import as_choice, as_flag, as_points, as_segments
+from ._welded import welded_rings
 
-#: Rings of a polygon, as they are given.
+#: Rings, as they are given.
 _Rings = list[Any]
-#: Corners, and where rings begin, and where polygons begin among the rings.
-_Flat = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
+#: The parts of a polygon, each a shell and its holes.
+_Parts = list[_Rings]
+#: Corners, where rings begin, where parts begin among the rings, and where polygons begin among the parts.
+_Flat = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
 
 
 class PolygonTriangles(NamedTuple):
@@ -49,7 +52,9 @@ class RaggedTriangles(NamedTuple):
     triangle_offsets: NDArray[np.int64]
 
 
-def triangulate_polygon(polygon: Any, *, fill: str = "even-odd", crossings: str = "refuse") -> PolygonTriangles:
+def triangulate_polygon(
+    polygon: Any, *, fill: str = "even-odd", crossings: str = "refuse", weld: float | None = None
+) -> PolygonTriangles:
     """Triangulates the inside of one polygon. Its triangles are those of the constrained Delaunay triangulation.
 
     Parameters
@@ -60,9 +65,13 @@ def triangulate_polygon(polygon: Any, *, fill: str = "even-odd", crossings: str 
         these, which is taken as one. Rings may be closed or not, touch, and share sides. Heights are left out.
     fill : str
         What is inside: "even-odd" what an odd number of rings is around, "nonzero" what rings wind around in sum,
-        counter-clockwise less clockwise, "positive" where this is more than zero, "negative" where it is less.
+        counter-clockwise less clockwise, "positive" where this is more than zero, "negative" where it is less,
+        "shells-minus-holes" what the first ring is around and no other, for each polygon of a geometry.
     crossings : str
         What happens where sides cross: "refuse" is a CrossingError, "split" makes points there.
+    weld : float, optional
+        A distance: corners and sides nearer to each other become one first, as `delone.weld` has it. Points, and sides that an
+        error names, are then those of the welded rings.
 
     Examples
     --------
@@ -72,21 +81,21 @@ def triangulate_polygon(polygon: Any, *, fill: str = "even-odd", crossings: str 
     >>> len(inside.triangles), inside.area
     (8, 12.0)
     """
-    flat = _flat([_rings_of(polygon, "polygon")], ["polygon"])
-    points, triangles, _, _ = _triangulated(flat, fill, crossings, True)
+    flat = _flat([_parts_of(polygon, "polygon")], ["polygon"])
+    points, triangles, _, _ = _triangulated(flat, fill, crossings, weld, True)
     return PolygonTriangles(points, triangles)
 
 
 @overload
 def triangulate_polygons(
-    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: Literal[False] = False
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", weld: float | None = None, ragged: Literal[False] = False
 ) -> list[PolygonTriangles]: ...
 @overload
 def triangulate_polygons(
-    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: Literal[True]
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", weld: float | None = None, ragged: Literal[True]
 ) -> RaggedTriangles: ...
 def triangulate_polygons(
-    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: bool = False
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", weld: float | None = None, ragged: bool = False
 ) -> list[PolygonTriangles] | RaggedTriangles:
     """Triangulates the insides of many polygons, each alone, on all cores.
 
@@ -98,6 +107,8 @@ def triangulate_polygons(
         `triangulate_polygon`. Lists and arrays of shapely's geometries are fastest.
     fill, crossings : str
         As for `triangulate_polygon`. Errors name the polygon.
+    weld : float, optional
+        As for `triangulate_polygon`; polygons are welded to each other, too.
     ragged : bool
         All in arrays, instead of a list of PolygonTriangles, whose arrays are parts of these.
 
@@ -115,8 +126,8 @@ def triangulate_polygons(
     flat = _flat_of_shapely(given)
     if flat is None:
         names = [f"polygon {k}" for k in range(len(given))]
-        flat = _flat([_rings_of(one, name) for one, name in zip(given, names, strict=True)], names)
-    points, triangles, point_offsets, triangle_offsets = _triangulated(flat, fill, crossings, False)
+        flat = _flat([_parts_of(one, name) for one, name in zip(given, names, strict=True)], names)
+    points, triangles, point_offsets, triangle_offsets = _triangulated(flat, fill, crossings, weld, False)
     if is_ragged:
         shift = np.repeat(point_offsets[:-1], np.diff(triangle_offsets))
         return RaggedTriangles(points, triangles + shift[:, None], point_offsets, triangle_offsets)
@@ -125,23 +136,29 @@ def triangulate_polygons(
 
 
 def _triangulated(
-    flat: _Flat, fill: str, crossings: str, is_one: bool
+    flat: _Flat, fill: str, crossings: str, weld: float | None, is_one: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
     rule = as_choice(fill, _RULES, "fill")
     split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
-    return _delone.triangulate_polygons(*flat, rule, split, is_one)
+    corners, rings, parts, polygons = flat
+    if weld is not None:
+        corners, rings = welded_rings(corners, rings, weld)
+    return _delone.triangulate_polygons(corners, (rings, parts, polygons), rule, split, is_one)
 
 
 def _offsets(lengths: Any) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(lengths, dtype=np.int64)])
 
 
-def _flat(polygons: list[_Rings], names: list[str]) -> _Flat:
+def _flat(polygons: list[_Parts], names: list[str]) -> _Flat:
     rings = [
-        _ring(ring, f"{name}, ring {k}") for name, rings in zip(names, polygons, strict=True) for k, ring in enumerate(rings)
+        _ring(ring, f"{name}, ring {k}")
+        for name, parts in zip(names, polygons, strict=True)
+        for k, ring in enumerate(ring for part in parts for ring in part)
     ]
     corners = np.concatenate(rings) if rings else np.empty((0, 2))
-    return np.ascontiguousarray(corners), _offsets([len(r) for r in rings]), _offsets([len(r) for r in polygons])
+    by_part = _offsets([len(part) for parts in polygons for part in parts])
+    return np.ascontiguousarray(corners), _offsets([len(r) for r in rings]), by_part, _offsets([len(p) for p in polygons])
 
 
 def _ring(ring: Any, what: str) -> NDArray[np.float64]:
@@ -164,8 +181,9 @@ def _flat_of_shapely(given: list[Any]) -> _Flat | None:
     rings, part_of_ring = shapely.get_rings(parts, return_index=True)
     corners, ring_of_corner = shapely.get_coordinates(rings, return_index=True)
     by_ring = np.bincount(ring_of_corner, minlength=len(rings))
-    by_polygon = np.bincount(polygon_of_part[part_of_ring], minlength=len(given))
-    return np.ascontiguousarray(corners), _offsets(by_ring), _offsets(by_polygon)
+    by_part = np.bincount(part_of_ring, minlength=len(parts))
+    by_polygon = np.bincount(polygon_of_part, minlength=len(given))
+    return np.ascontiguousarray(corners), _offsets(by_ring), _offsets(by_part), _offsets(by_polygon)
 
 
 def _members(polygons: Any) -> list[Any]:
@@ -211,10 +229,10 @@ def rings_of_region(region: Any) -> _Rings | None:
             one for one in _members(mapping) if not (isinstance(one, Mapping) and "geometry" in one and one["geometry"] is None)
         ]
         return [ring for member in members for ring in _rings_of(member, "region")]
-    return _rings_of_mapping(mapping, "region")
+    return _rings_of(mapping, "region")
 
 
-_RULES = ("even-odd", "nonzero", "positive", "negative")
+_RULES = ("even-odd", "nonzero", "positive", "negative", "shells-minus-holes")
 _INSIDES = ("Polygon", "MultiPolygon")
 
 
@@ -250,7 +268,7 @@ def points_and_segments(given: Any, segments: Any) -> tuple[NDArray[np.float64],
         rings = [ring for k, one in enumerate(given) if one is not None for ring in _rings_of(one, f"polygon {k}")]
     else:
         rings = rings_of_region(given) or []
-    corners, starts, _ = _flat([rings], ["polygons"])
+    corners, starts, _, _ = _flat([[rings]], ["polygons"])
     # The last corner of a closed ring is the first one again.
     first, last = starts[:-1], starts[1:] - 1
     is_closed = (last > first) & (corners[first] == corners[np.maximum(last, first)]).all(axis=1)
@@ -271,37 +289,42 @@ def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:
 
 def _rings_of(given: Any, what: str) -> _Rings:
     """The rings of a polygon, not looked at yet; of all polygons of one geometry."""
+    return [ring for part in _parts_of(given, what) for ring in part]
+
+
+def _parts_of(given: Any, what: str) -> _Parts:
+    """The parts of a polygon, each a shell and its holes."""
     mapping = as_mapping(given)
     if mapping is not None:
-        return _rings_of_mapping(mapping, what)
+        return _parts_of_mapping(mapping, what)
     if given is None or isinstance(given, (str, bytes)) or not isinstance(given, (Iterable, np.ndarray)):
         raise TypeError(f"{what} must be a ring, a list of rings or a geometry, not {given!r}")
     if isinstance(given, np.ndarray) and given.dtype.kind != "O":
-        return list(given) if given.ndim == 3 else [given]
+        return [list(given)] if given.ndim == 3 else [[given]]
     rings = given if isinstance(given, (list, tuple)) else list(given)
     # A ring if it begins with a point, which begins with a number.
     first = rings[0] if len(rings) else None
     is_ring = first is not None and (np.ndim(first) == 0 or (len(first) > 0 and np.ndim(first[0]) == 0))
-    return [rings] if is_ring else list(rings)
+    return [[rings]] if is_ring else [list(rings)]
 
 
-def _rings_of_mapping(mapping: Mapping[str, Any], what: str) -> _Rings:
+def _parts_of_mapping(mapping: Mapping[str, Any], what: str) -> _Parts:
     kind = mapping.get("type")
     if kind == "Feature":
         geometry = as_mapping(mapping.get("geometry"))
         if geometry is None:
             raise TypeError(f"{what}: a Feature without a geometry")
-        return _rings_of_mapping(geometry, what)
+        return _parts_of_mapping(geometry, what)
     if kind == "GeometryCollection":
         members = [as_mapping(member) for member in _required(mapping, "geometries", what)]
-        return [ring for member in members for ring in _rings_of_mapping(member or {}, what)]
+        return [part for member in members for part in _parts_of_mapping(member or {}, what)]
     if kind in ("Polygon", "MultiPolygon"):
         coordinates = _required(mapping, "coordinates", what)
         polygons = coordinates if kind == "MultiPolygon" else [coordinates]
         wrong = [polygon for polygon in polygons if not isinstance(polygon, (list, tuple, np.ndarray))]
         if wrong:
             raise TypeError(f"{what}: a {kind} must have lists of rings, not {wrong[0]!r}")
-        return [_plane(ring) for polygon in polygons for ring in polygon]
+        return [[_plane(ring) for ring in polygon] for polygon in polygons]
     raise TypeError(f"{what}: a {kind} has no inside" if isinstance(kind, str) else f"{what}: a mapping that is no geometry")
 
 

@@ -96,6 +96,32 @@ impl Polygons2 {
         self.of_shells(rings, |_| 0)
     }
 
+    /// Triangulates several polygons as one, each a shell and its holes: [`RingFill::ShellMinusHoles`] takes each hole from its own shell.
+    /// With other rules as [`Self::triangulate`] of all rings.
+    ///
+    /// # Errors
+    /// Those of [`Self::triangulate`].
+    ///
+    /// ```
+    /// use delone::{Polygons2, RingFill};
+    ///
+    /// let square = |x: f64, size: f64| vec![[x, 0.0], [x + size, 0.0], [x + size, size], [x, size]];
+    /// // The second polygon is in the hole of the first one.
+    /// let parts = [vec![square(0.0, 8.0), square(1.0, 4.0)], vec![square(2.0, 1.0)]];
+    /// let inside = Polygons2::default().with_fill(RingFill::ShellMinusHoles).triangulate_parts(&parts)?;
+    /// assert_eq!(inside.area(), 64.0 - 16.0 + 1.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn triangulate_parts<P: AsRef<[R]>, R: AsRef<[[f64; 2]]>>(
+        &self,
+        parts: &[P],
+    ) -> Result<PolygonTriangles2, Error> {
+        let rings: Vec<&R> = parts.iter().flat_map(AsRef::as_ref).collect();
+        let mut shells: Vec<usize> = Vec::with_capacity(rings.len());
+        parts.iter().for_each(|part| shells.resize(shells.len() + part.as_ref().len(), shells.len()));
+        self.of_shells(&rings, |ring| shells[ring])
+    }
+
     /// The same, with the shell of each ring: of a shell, itself.
     fn of_shells<R: AsRef<[[f64; 2]]>>(
         self,
@@ -150,6 +176,17 @@ impl Polygons2 {
         polygons: &[P],
     ) -> Vec<Result<PolygonTriangles2, Error>> {
         each_on_all_threads(polygons, |rings| self.triangulate(rings))
+    }
+
+    /// Triangulates many polygons of several parts, each alone, on all threads.
+    ///
+    /// # Errors
+    /// Those of [`Self::triangulate_parts`], for each polygon its own.
+    pub fn triangulate_all_parts<G: AsRef<[P]> + Sync, P: AsRef<[R]>, R: AsRef<[[f64; 2]]>>(
+        &self,
+        polygons: &[G],
+    ) -> Vec<Result<PolygonTriangles2, Error>> {
+        each_on_all_threads(polygons, |parts| self.triangulate_parts(parts))
     }
 
     /// The parts inside, by the ring of each side and the shell of each ring.
@@ -263,9 +300,6 @@ impl Polygons2 {
         let of_one = |p: &geo_types::Polygon<T>| -> Vec<Vec<[f64; 2]>> {
             std::iter::once(p.exterior()).chain(p.interiors()).map(ring).collect()
         };
-        let mut shells: Vec<usize> = Vec::new();
-        let count = |polygon: &geo_types::Polygon<T>| 1 + polygon.interiors().len();
-        polygons.iter().for_each(|polygon| shells.resize(shells.len() + count(polygon), shells.len()));
-        self.of_shells(&polygons.iter().flat_map(of_one).collect::<Vec<_>>(), |ring| shells[ring])
+        self.triangulate_parts(&polygons.iter().map(of_one).collect::<Vec<_>>())
     }
 }
