@@ -7,8 +7,8 @@ mod plan;
 use std::sync::Arc;
 
 use delone::{
-    AllQuads2, Ask as _, Constrained2, Crossings, Domains2, EdgeId, Quads2, Reason, Refined2, Shapes2,
-    TriangleId, Triangulation as _, VertexId,
+    AllQuads2, Ask as _, Constrained2, Crossings, Domains2, EdgeId, Gap2, Quads2, Reason, Refined2,
+    SegmentId, Shapes2, TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -56,6 +56,8 @@ struct Content {
     /// Segments that were given; the border of a hull gets ids beyond.
     given: usize,
     arcs: Arcs,
+    /// A gap of the input that is too narrow to be meant.
+    gap: Option<Gap2>,
 }
 
 #[pymethods]
@@ -109,7 +111,7 @@ impl Mesh {
             };
             let mut made = this.made.clone();
             let refined = this.refined.coarsen(&mut made, &is_marked, min_angle)?;
-            Ok(Self::content(made, refined, (this.given, this.arcs.clone())))
+            Ok(Self::content(made, refined, (this.given, this.arcs.clone()), None))
         })?;
         made.map_err(python_error)
     }
@@ -272,6 +274,13 @@ impl Mesh {
         ))
     }
 
+    /// A gap that is too narrow to be meant: its width, a place, the segments on both sides, and the exponent of a tolerance.
+    #[getter]
+    fn gap(&self) -> Option<(f64, [f64; 2], [usize; 2], i32)> {
+        let gap = self.0.gap?;
+        Some((gap.width, gap.at, gap.segments.map(SegmentId::index), gap.exponent()))
+    }
+
     /// The rows of triangles that are not as they were to be, and why.
     #[getter]
     fn left(&self) -> Vec<(i64, &'static str)> {
@@ -298,11 +307,16 @@ impl Mesh {
     }
 
     /// With the rows of what is inside.
-    fn content(made: Constrained2, refined: Refined2, (given, arcs): (usize, Arcs)) -> Self {
+    fn content(
+        made: Constrained2,
+        refined: Refined2,
+        (given, arcs): (usize, Arcs),
+        gap: Option<Gap2>,
+    ) -> Self {
         let inside: Vec<TriangleId> = made.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
         let mut rows = vec![-1; made.slot_count()];
         inside.iter().zip(0..).for_each(|(t, row)| rows[t.index()] = row);
-        Self(Arc::new(Content { made, refined, rows, inside, given, arcs }))
+        Self(Arc::new(Content { made, refined, rows, inside, given, arcs, gap }))
     }
 
     /// Refines what was built, under Python's lock only where Python is asked. What is inside is known, or wished.
@@ -422,6 +436,7 @@ fn word(reason: Reason) -> &'static str {
         Reason::Cascade => "cascade",
         Reason::Budget => "budget",
         Reason::Kept => "kept",
+        Reason::Short => "short",
         other => other.text(),
     }
 }

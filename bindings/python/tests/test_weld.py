@@ -112,3 +112,15 @@ def test_holes_are_of_their_own_shell():
     for given in (island, island.__geo_interface__):
         assert delone.triangulate_polygon(given, fill="shells-minus-holes").area == 72 - 24 + 1
     assert [part.area for part in delone.triangulate_polygons([island] * 2, fill="shells-minus-holes")] == [49, 49]
+
+
+def test_a_gap_that_is_too_narrow_is_told():
+    points = [[0, 0], [4, 0], [4, 4], [0, 4], [2, 1e-7], [2, 3]]
+    sides = [*RING, [4, 5]]
+    with pytest.warns(UserWarning, match=r"segments 0 and 4 are 1e-07 apart near \(2, 1e-07\).*weld=1e-6 joins them"):
+        made = delone.mesh(points, sides, max_vertices=50, holes=[])
+    assert len(made.report.left) > 0
+    with pytest.warns(UserWarning, match="segments 0 and 4"):
+        short = delone.mesh(points, sides, min_edge=0.1, holes=[])
+    assert set(short.report.reasons) >= {"short"}
+    assert len(delone.mesh(points, sides, weld=1e-6, holes=[]).report.left) == 0

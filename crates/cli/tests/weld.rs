@@ -102,3 +102,29 @@ fn attributes_stay_with_their_features() {
         assert_eq!(counts, [2, 2], "{command}: {written}");
     }
 }
+
+/// The warning names the segments, the place and the option, and the option helps.
+#[test]
+fn a_gap_that_is_too_narrow_is_told() {
+    let place = Place::new();
+    place.file(
+        "p.poly",
+        "6 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n5 2 1e-7\n6 2 3\n5 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n0\n",
+    );
+    let output = place.run("mesh p.poly --min-angle 20 --max-vertices 100 -o t.obj");
+    let told = text(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    assert!(
+        told.contains("warning: segments 0 and 4 are 0.0000001 apart near (2, 0.0000001): ")
+            && told.contains("; --weld 1e-6 joins"),
+        "{told}"
+    );
+    let output = place.run("mesh p.poly --min-angle 20 --weld 1e-6 -o t.obj");
+    let told = text(&output.stderr);
+    assert!(output.status.success() && !told.contains("warning"), "{told}");
+    let output = place.run("mesh p.poly --min-angle 20 --min-edge 0.1 -o t.obj --stats s.json");
+    let told = text(&output.stderr);
+    assert!(output.status.success() && told.contains(" no shorter edges allowed"), "{told}");
+    assert!(stats(&place)["left"]["short"].as_u64().expect("a count") > 0);
+    assert!(stats(&place)["points"].as_u64().expect("a count") < 500);
+}

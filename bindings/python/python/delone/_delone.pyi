@@ -53,13 +53,13 @@ __all__ = [
     "thin",
     "transforms",
     "triangulate_polygons",
-    "weld",
     "triangulate_tile",
     "vertex_gradients",
     "vertex_neighbors",
     "vertex_to_simplex",
     "voronoi_regions",
     "voronoi_ridges",
+    "weld",
 ]
 
 MERGE_AUTO: float
@@ -265,6 +265,8 @@ class Mesh:
     def layer_counts(self) -> list[int]: ...
     @property
     def left(self) -> list[tuple[int, str]]: ...
+    @property
+    def gap(self) -> tuple[float, list[float], list[int], int] | None: ...
     def check(self) -> None: ...
 
 def divide_arcs(

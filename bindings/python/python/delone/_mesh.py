@@ -94,7 +94,7 @@ class MeshReport:
     left: NDArray[np.int64]
     #: Why, for each of them: "input angle" where constraints meet at a small angle, "precision" where coordinates are too coarse
     #: for a point that would be needed, "cascade" where points would come nearer and nearer to each other, "budget" for
-    #: `max_vertices`, "kept" for `keep`, and beside boundary layers.
+    #: `max_vertices`, "kept" for `keep`, and beside boundary layers, "short" for `min_edge`.
     reasons: tuple[str, ...]
     #: Counts of boundary layers. Angles above are those of the other triangles.
     layers: LayerReport
@@ -418,6 +418,7 @@ class Mesh:
         max_area: float | None = None,
         max_areas: ArrayLike | None = None,
         max_edge: float | None = None,
+        min_edge: float = 0.0,
         edge: float | None = None,
         growth: float = 1.2,
         size: Size | None = None,
@@ -438,7 +439,7 @@ class Mesh:
             their area. Those of boundary layers stay as they are.
         max_areas : array_like of floats, shape (t,), optional
             The largest areas for what is in each triangle, by the centroids of new triangles. Infinite is no bound.
-        min_angle, max_area, max_edge, edge, growth, size, refine_if, max_vertices, keep, conforming, smooth
+        min_angle, max_area, max_edge, min_edge, edge, growth, size, refine_if, max_vertices, keep, conforming, smooth
             As for `mesh`; a size in an array is one for each of `points`. Largest areas of regions hold again.
 
         Raises
@@ -467,6 +468,7 @@ class Mesh:
             min_angle,
             max_area,
             max_edge,
+            min_edge,
             edge,
             growth,
             max_vertices,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -27,6 +29,7 @@ def mesh(
     min_angle: float = 20.0,
     max_area: float | None = None,
     max_edge: float | None = None,
+    min_edge: float = 0.0,
     edge: float | None = None,
     growth: float = 1.2,
     size: Size | None = None,
@@ -78,6 +81,9 @@ def mesh(
         No triangle is to be larger.
     max_edge : float, optional
         No edge is to be longer, segments included.
+    min_edge : float
+        No edge with a new vertex is to be shorter, up to rounding: triangles that would need some are left, with the reason
+        "short". Not for boundary layers.
     edge : float, optional
         The length that edges are to have: triangles become nearly equilateral and grow smoothly. It is what is wanted and no
         bound; most edges have from 0.9 to 1.15 times it. Infinite where `size` says all.
@@ -153,7 +159,7 @@ def mesh(
     """
     given, ends, _ = points_and_segments(points, segments)
     wanted = wanted_of(
-        min_angle, max_area, max_edge, edge, growth, max_vertices, keep, conforming, smooth, size, refine_if, len(given)
+        min_angle, max_area, max_edge, min_edge, edge, growth, max_vertices, keep, conforming, smooth, size, refine_if, len(given)
     )
     split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
     seeded = holes is not None or regions is not None
@@ -184,7 +190,7 @@ def mesh(
     wishes["keep_concavities"] = concave
     wishes["layers"] = None if layers is None else layers_of(layers, len(ends))
     if centers is None and weld is None:
-        return Mesh._make((given, ends, split), wishes, of_regions)
+        return _told(Mesh._make((given, ends, split), wishes, of_regions), np.arange(len(ends)))
     origins = np.arange(len(ends))
     if weld is not None:
         welded = welded_of(given, ends, weld)
@@ -199,9 +205,22 @@ def mesh(
         along = np.flatnonzero(np.isin(origins, wishes["layers"][4])).tolist()
         wishes["layers"] = (*wishes["layers"][:4], along)
     try:
-        return Mesh._make((given, ends, split, origins), wishes, of_regions)
+        return _told(Mesh._make((given, ends, split, origins), wishes, of_regions), origins)
     except CrossingError as error:
         raise renamed(error, origins, "" if centers is None else ", or the chords of their arcs,") from None
+
+
+def _told(made: Mesh, origins: NDArray[np.int64]) -> Mesh:
+    """Warns of a gap that is too narrow to be meant."""
+    if made._core.gap is not None:
+        width, (x, y), segments, exponent = made._core.gap
+        one, other = origins[segments].tolist()
+        warnings.warn(
+            f"segments {one} and {other} are {width:g} apart near ({x:g}, {y:g}): triangles there are as small, or not as "
+            f"wanted; weld=1e{exponent} joins them",
+            stacklevel=3,
+        )
+    return made
 
 
 def _attributes(values: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -24,6 +24,7 @@ class Wanted(TypedDict):
     min_angle: float
     max_area: float | None
     max_edge: float | None
+    min_edge: float
     edge: float | None
     growth: float
     max_vertices: int | None
@@ -81,6 +82,7 @@ def wanted_of(
     min_angle: float,
     max_area: float | None,
     max_edge: float | None,
+    min_edge: float,
     edge: float | None,
     growth: float,
     max_vertices: int | None,
@@ -117,6 +119,7 @@ def wanted_of(
         "min_angle": number_of(min_angle, "min_angle"),
         "max_area": None if max_area is None else _bound(max_area, "max_area"),
         "max_edge": min(lengths, default=None),
+        "min_edge": number_of(min_edge, "min_edge"),
         "edge": None if edge is None else _bound(edge, "edge"),
         "growth": number_of(growth, "growth"),
         "max_vertices": most,
@@ -202,6 +205,7 @@ PLAIN: Wishes = {
     "min_angle": 0.0,
     "max_area": None,
     "max_edge": None,
+    "min_edge": 0.0,
     "edge": None,
     "growth": 1.2,
     "max_vertices": None,

@@ -1,7 +1,7 @@
 //! The criteria of a mesh, with Python's objects and without them.
 
 use delone::{
-    Constrained2, Domains2, Error, Fill, Keep, Layers2, Refinement, RegionSeed2, Seeds2, SegmentId,
+    Constrained2, Domains2, Error, Fill, Gap2, Keep, Layers2, Refinement, RegionSeed2, Seeds2, SegmentId,
     TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -32,6 +32,7 @@ pub struct Wishes<'py> {
     min_angle: f64,
     max_area: Option<f64>,
     max_edge: Option<f64>,
+    min_edge: f64,
     edge: Option<f64>,
     growth: f64,
     max_vertices: Option<usize>,
@@ -63,6 +64,7 @@ pub(super) struct Plan {
     min_angle: f64,
     max_area: Option<f64>,
     max_edge: Option<f64>,
+    min_edge: f64,
     edge: Option<f64>,
     growth: f64,
     max_vertices: Option<usize>,
@@ -146,7 +148,7 @@ impl<'py> Wishes<'py> {
             Some(rows) => triples(rows)?,
             None => Vec::new(),
         };
-        let Self { fill, min_angle, max_area, max_edge, edge, growth, max_vertices, .. } = self;
+        let Self { fill, min_angle, max_area, max_edge, min_edge, edge, growth, max_vertices, .. } = self;
         let layers = self.layers.map(|(height, count, growth, thickness, segments)| {
             let mut layers = Layers2::new(height, count).growth(growth);
             layers.thickness = thickness;
@@ -160,6 +162,7 @@ impl<'py> Wishes<'py> {
             min_angle,
             max_area,
             max_edge,
+            min_edge,
             edge,
             growth,
             max_vertices,
@@ -210,6 +213,7 @@ impl Plan {
             .conforming(self.conforming)
             .fill(fill)
             .smooth(self.smooth)
+            .min_edge(self.min_edge)
             .triangles(&triangles)
             .arcs(&arcs)
             .stop_if(stop);
@@ -237,8 +241,14 @@ impl Plan {
         if let Some(layers) = &self.layers {
             wanted = wanted.layers(layers);
         }
+        // What is refined again was looked at.
+        let gap = if self.min_angle > 0.0 && known.is_none() && triangles.is_empty() {
+            made.narrowest_gap(&made.domains(&fill)?).filter(Gap2::is_tiny)
+        } else {
+            None
+        };
         let refined = wanted.run(&mut made)?;
-        Ok(Mesh::content(made, refined, (given, arcs)))
+        Ok(Mesh::content(made, refined, (given, arcs), gap))
     }
 
     /// Whether there is memory for as many triangles as bounds for all places ask for at least.

@@ -55,6 +55,9 @@ pub(crate) struct MeshArgs {
     /// No longer edges.
     #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
     pub(crate) max_edge: Option<f64>,
+    /// No shorter edges with a new vertex: triangles that would need some are left.
+    #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
+    pub(crate) min_edge: Option<f64>,
     /// The length that edges are to have: nearly equilateral triangles that grow smoothly. A --size is a length wanted then, too.
     #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
     pub(crate) edge: Option<f64>,

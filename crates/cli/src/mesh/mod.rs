@@ -80,6 +80,9 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let naming = Naming::of(args, &mut graph)?;
     let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
     let layers = &args.layers.layers;
+    if plan.min_angle > 0.0 && again.is_none() {
+        tell::gap(&c.triangulation, &c.inside, quiet);
+    }
     let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), (naming, layers), &label, quiet)?;
     stats.phase("build");
     let (c, report) = (&made.triangulation, &made.refined.report);

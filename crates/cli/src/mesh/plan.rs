@@ -21,6 +21,7 @@ pub(super) struct Plan {
     pub(super) min_angle: f64,
     pub(super) max_area: Option<f64>,
     pub(super) max_edge: Option<f64>,
+    pub(super) min_edge: Option<f64>,
     /// The length that edges are to have, and how it may grow.
     pub(super) edge: Option<f64>,
     pub(super) growth: Option<f64>,
@@ -80,6 +81,7 @@ impl Plan {
             min_angle: args.min_angle.unwrap_or(20.0),
             max_area: args.max_area,
             max_edge: args.max_edge,
+            min_edge: args.min_edge,
             edge: args.edge,
             growth: args.growth,
             max_vertices: args.max_vertices,
@@ -131,6 +133,7 @@ impl Plan {
             min_angle: switches.min_angle.unwrap_or(0.0),
             max_area: switches.max_area,
             max_edge: args.max_edge,
+            min_edge: args.min_edge,
             edge: args.edge,
             growth: args.growth,
             max_vertices: switches.max_vertices,
@@ -179,6 +182,9 @@ impl Plan {
         }
         if let Some(length) = self.max_edge {
             wanted = wanted.max_edge(length);
+        }
+        if let Some(length) = self.min_edge {
+            wanted = wanted.min_edge(length);
         }
         if let Some(length) = self.edge {
             wanted = wanted.edge(length);

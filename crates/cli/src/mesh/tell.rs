@@ -1,6 +1,6 @@
 //! The summary of a mesh: counts, angles, and triangles that are not as wanted.
 
-use delone::{Reason, RefinementReport2, Shapes2};
+use delone::{Constrained2, Domains2, Gap2, Reason, RefinementReport2, SegmentId, Shapes2};
 use serde_json::{Map, Value, json};
 
 use crate::message::{grouped, say, warn};
@@ -45,6 +45,7 @@ fn key(reason: Reason) -> &'static str {
         Reason::Cascade => "cascade",
         Reason::Budget => "budget",
         Reason::Kept => "kept",
+        Reason::Short => "short",
         _ => "other",
     }
 }
@@ -59,6 +60,20 @@ pub(super) fn left(report: &RefinementReport2) -> Option<String> {
     let what = if count == 1 { "triangle is" } else { "triangles are" };
     let reasons = reasons.collect::<Vec<_>>().join(", ");
     (count > 0).then(|| format!("{} {what} not as wanted: {reasons}", grouped(count as u64)))
+}
+
+/// Warns of a gap that is too narrow to be meant: triangles become as small as it is, if they can.
+pub(super) fn gap(c: &Constrained2, inside: &Domains2, quiet: bool) {
+    let Some(gap) = c.narrowest_gap(inside).filter(Gap2::is_tiny) else { return };
+    let ([one, other], [x, y]) = (gap.segments.map(SegmentId::index), gap.at);
+    warn(
+        quiet,
+        format!(
+            "segments {one} and {other} are {} apart near ({x}, {y}): triangles there will be as small, or not as wanted; --weld 1e{} joins them",
+            gap.width,
+            gap.exponent()
+        ),
+    );
 }
 
 /// Says in a line what was done, and warns of what could not be.

@@ -11,3 +11,4 @@ mod kept;
 mod layers;
 mod nasty;
 mod quads;
+mod short;

@@ -53,6 +53,7 @@ pub struct Refinement<'a> {
     pub(super) min_angle: f64,
     pub(super) max_area: Option<f64>,
     pub(super) max_edge: Option<f64>,
+    pub(super) min_edge: f64,
     pub(super) area_at: Option<Field<'a>>,
     pub(super) size_at: Option<Field<'a>>,
     pub(super) refine_if: Option<Test<'a>>,
@@ -78,6 +79,7 @@ impl std::fmt::Debug for Refinement<'_> {
             .field("min_angle", &self.min_angle)
             .field("max_area", &self.max_area)
             .field("max_edge", &self.max_edge)
+            .field("min_edge", &self.min_edge)
             .field("edge", &self.edge)
             .field("growth", &self.growth)
             .field("max_vertices", &self.max_vertices)
@@ -104,6 +106,7 @@ impl<'a> Refinement<'a> {
             min_angle: 20.0,
             max_area: None,
             max_edge: None,
+            min_edge: 0.0,
             area_at: None,
             size_at: None,
             refine_if: None,
@@ -176,6 +179,28 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn max_edge(self, length: f64) -> Self {
         Self { max_edge: Some(length), ..self }
+    }
+
+    /// No edge with a new vertex is to be shorter, up to rounding: where angles and sizes ask for more, triangles are left, for
+    /// [`super::Reason::Short`]. For meshes whose smallest element is what a time step allows, of outlines with gaps that are narrower
+    /// (where these may be closed, see [`crate::Weld2`]). Not for boundary layers.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Reason, Refinement};
+    ///
+    /// // A notch that is a thousand times narrower than the plate.
+    /// let plate = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.501, 1.0], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
+    /// let mut c = Constrained2::from_parts(&plate, &[])?;
+    /// let made = Refinement::new().min_edge(0.05).run(&mut c)?;
+    /// assert!(made.report.left_for(Reason::Short) > 0);
+    /// let length = |[a, b]: [[f64; 2]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+    /// let short = c.mesh().undirected_edges().filter(|&e| length(c.segment(e)) < 0.05).count();
+    /// assert_eq!(short, 1); // that of the input
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    #[must_use]
+    pub fn min_edge(self, length: f64) -> Self {
+        Self { min_edge: length, ..self }
     }
 
     /// No edge of a triangle is to be longer than what is said for its centroid. Infinite is no bound.

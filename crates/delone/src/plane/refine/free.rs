@@ -129,14 +129,14 @@ impl Mesher<'_> {
         if task.fault() == Fault::Size {
             scale = scale.min(square.sqrt());
         }
-        let reason = if Self::is_cascade(square, scale) { Reason::Cascade } else { Reason::Precision };
-        if !near.is_empty() || !mends || reason == Reason::Cascade {
+        let too_near = self.why_too_near(square, scale);
+        if !near.is_empty() || !mends || too_near.is_some() {
             self.abandon();
             if near.is_empty() {
                 let shape = Shape::of(self.layer, task.edge.triangle()).filter(|_| !mends && !is_last);
                 match shape.map(|shape| (shape.center(self.rules.reach), shape)) {
                     Some((nearer, shape)) if nearer != q => self.mend_at(task, &shape, nearer),
-                    _ => self.leave(task.corners, reason),
+                    _ => self.leave(task.corners, too_near.unwrap_or(Reason::Precision)),
                 }
             } else {
                 self.split_first(task, &near, is_last);

@@ -9,11 +9,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use delone_predicates::angle;
+
 use super::arcs::Centers;
 use super::queue::{Fault, Queue, Task};
 use super::report::Reason;
 use super::rules::Rules;
-use super::shape::{Shape, squared, squared_obtuseness};
+use super::shape::{Shape, squared, squared_height, squared_obtuseness};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::Mesh2;
@@ -398,6 +400,28 @@ impl<'a> Mesher<'a> {
     /// Whether a vertex may be so near to another one of some scale.
     pub(super) fn is_cascade(square: f64, scale: f64) -> bool {
         square < (PART * scale) * (PART * scale)
+    }
+
+    /// Why there may be no vertex so near to another one of some scale.
+    pub(super) fn why_too_near(&self, square: f64, scale: f64) -> Option<Reason> {
+        let is_short = square < self.rules.squared_least;
+        is_short
+            .then_some(Reason::Short)
+            .or_else(|| Self::is_cascade(square, scale).then_some(Reason::Cascade))
+    }
+
+    /// Whether a vertex with this star may move to a point without coming too near to any vertex that it sees: its disk is in the star.
+    pub(super) fn keeps_apart(&self, star: &[EdgeId], q: [f64; 2]) -> bool {
+        let least = self.rules.squared_least;
+        let mesh = &self.layer.mesh;
+        least == 0.0
+            || star.iter().all(|e| {
+                let link = e.next();
+                let [a, b] = [mesh.tail(link), mesh.head(link)].map(|v| self.point(v));
+                let is_beside = !angle(a, b, q).is_negative() && !angle(b, a, q).is_negative();
+                let is_behind = is_beside && !mesh.is_fixed(link) && squared_height(q, [a, b]) < least;
+                squared(q, a) >= least && !is_behind
+            })
     }
 
     /// The point of a new vertex is at this place.

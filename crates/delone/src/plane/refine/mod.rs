@@ -217,7 +217,8 @@ impl Refinement<'_> {
             .find_map(|(name, value)| Some((name, value.filter(|x| x.is_nan() || *x <= 0.0)?)))
         {
             Some((name, value)) => Err(Error::Parameter { name, value, range: "positive" }),
-            None => Ok(()),
+            None if self.min_edge >= 0.0 => Ok(()),
+            None => Err(Error::Parameter { name: "min_edge", value: self.min_edge, range: "at least 0" }),
         }
     }
 }

@@ -17,11 +17,14 @@ pub enum Reason {
     Budget,
     /// A constraint would have to be split that is to be kept.
     Kept,
+    /// A new vertex would be nearer to another one than edges may be long.
+    Short,
 }
 
 impl Reason {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::InputAngle, Self::Precision, Self::Cascade, Self::Budget, Self::Kept];
+    pub const ALL: [Self; 6] =
+        [Self::InputAngle, Self::Precision, Self::Cascade, Self::Budget, Self::Kept, Self::Short];
 
     /// In a few words.
     pub fn text(self) -> &'static str {
@@ -31,6 +34,7 @@ impl Reason {
             Self::Cascade => "would never end",
             Self::Budget => "no more vertices allowed",
             Self::Kept => "beside a constraint or a layer that is kept",
+            Self::Short => "no shorter edges allowed",
         }
     }
 }

@@ -53,6 +53,8 @@ pub(super) struct Rules<'a> {
     keep: Keep,
     /// The square of the longest edge.
     squared_longest: f64,
+    /// The square of the shortest edge with a new vertex.
+    pub(super) squared_least: f64,
     /// The length that edges are to have, if that is the same everywhere; infinite if nothing is said.
     length: f64,
     length_at: Option<Field<'a>>,
@@ -107,6 +109,7 @@ impl<'a> Rules<'a> {
             most: wanted.max_vertices.map_or(room, |most| most.min(before.room)),
             for_angles: wanted.max_vertices.map_or(unasked, |_| before.room),
             keep: wanted.keep,
+            squared_least: wanted.min_edge * wanted.min_edge,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
             layers: before.inside + 1..before.with_layers + 1,

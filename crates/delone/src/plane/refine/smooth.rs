@@ -33,7 +33,7 @@ impl Mesher<'_> {
         let worst = worst.max(self.rules.squared_cosine.min(1.0));
         for part in [1.0, 0.5] {
             let q = [0, 1].map(|k| own[k] + part * (goal[k] - own[k]));
-            if q == own || !self.is_room(&star, q) {
+            if q == own || !self.is_room(&star, q) || !self.keeps_apart(&star, q) {
                 continue;
             }
             self.layer.points[v.index()] = q;

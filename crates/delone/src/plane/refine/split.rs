@@ -241,10 +241,10 @@ impl Mesher<'_> {
         let wanted = domains.map(|domain| self.rules.size_at(q, domain));
         let scale = wanted.into_iter().fold(self.scale_on(on, nearest, square, q).min(near), f64::min);
         let scale = if is_asked_for { scale.min(square.sqrt()) } else { scale };
-        if Self::is_cascade(square, scale) {
+        if let Some(reason) = self.why_too_near(square, scale) {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
-            self.refuse(e, Reason::Cascade);
+            self.refuse(e, reason);
             return None;
         }
         let v = self.layer.place_for(Spot::Triangle(seed), q);

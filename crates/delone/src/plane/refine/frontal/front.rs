@@ -246,6 +246,7 @@ impl Frontal<'_, '_> {
         let (nearest, square) = self.mesher.nearest(q);
         let is_near = |&(_, e): &(Place, EdgeId)| mesh.is_fixed(e) && self.is_near_constraint(e, q, size);
         if square < (LEAST_DISTANCE * size) * (LEAST_DISTANCE * size)
+            || square < self.mesher.rules.squared_least
             || !mesh.is_marked(large)
             || border.iter().any(is_near)
         {

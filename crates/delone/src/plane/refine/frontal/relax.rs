@@ -99,7 +99,8 @@ impl Frontal<'_, '_> {
         let length = (step[0] * step[0] + step[1] * step[1]).sqrt();
         let part = if length > FARTHEST_MOVE * size { FARTHEST_MOVE * size / length } else { 1.0 };
         let q = [0, 1].map(|k| own[k] + part * step[k]);
-        if q == own || !blades.iter().all(|blade| blade.allows(own, q)) {
+        let is_allowed = blades.iter().all(|blade| blade.allows(own, q));
+        if q == own || !is_allowed || !self.mesher.keeps_apart(star, q) {
             return;
         }
         if !way.keeps_angles {
