@@ -7,6 +7,7 @@ use delone::surface::{Thinned, Thinning};
 use delone_io::{Cloud, Graph, Raster, picture, write_mesh};
 
 use crate::args::{CrossingsName, GraphArgs, SimplifyArgs};
+use crate::constrained::regions::Claims;
 use crate::constrained::{self, Constrained};
 use crate::files;
 use crate::message::{Failure, grouped, say};
@@ -65,7 +66,8 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
         }
         stats.phase("write");
     } else {
-        let fill = (constrained::usual(&args.input, &graph), false);
+        let claims = Claims::default();
+        let fill = (constrained::usual(&args.input, &graph), false, &claims);
         let label = args.input.label();
         let c = Constrained::of(graph, CrossingsName::Refuse, fill, &label, &mut stats, quiet)?;
         c.write(&outputs, &args.edges.border(), &options, &mut stats, quiet)?;

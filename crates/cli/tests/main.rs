@@ -37,6 +37,7 @@ mod program;
 mod quads;
 mod rasters;
 mod refined_again;
+mod regions;
 mod repeated;
 mod resume;
 mod segments;

@@ -23,12 +23,19 @@ pub struct GraphArgs {
     /// where there are no polygons.
     #[arg(long, value_name = "RULE")]
     pub(crate) fill: Option<FillName>,
+    /// The polygon that has the attributes and the region of a place in several [default: last].
+    #[arg(long, value_name = "WHICH")]
+    pub(crate) overlaps: Option<OverlapsName>,
 }
 
 impl GraphArgs {
     /// Whether anything was asked for that needs segments.
     pub(crate) fn is_given(&self) -> bool {
-        self.segments.is_some() || self.weld.is_some() || self.crossings.is_some() || self.fill.is_some()
+        self.segments.is_some()
+            || self.weld.is_some()
+            || self.crossings.is_some()
+            || self.fill.is_some()
+            || self.overlaps.is_some()
     }
 }
 
@@ -39,6 +46,19 @@ pub enum CrossingsName {
     Refuse,
     /// They are split there: points are added, which follow those of the input.
     Split,
+}
+
+/// The polygon that has a place which is in several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OverlapsName {
+    /// The last one in the input.
+    Last,
+    /// The first one in the input.
+    First,
+    /// The one of the smallest area.
+    Smallest,
+    /// A region of its own for each set of polygons.
+    Combined,
 }
 
 /// The rule for the inside.

@@ -89,6 +89,12 @@ pub(crate) struct MeshArgs {
     /// Columns of a text file of --size that are x, y and the size: names or numbers from 1.
     #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "size", help_heading = "Quality")]
     pub(crate) size_columns: Vec<String>,
+    /// Attribute of polygons that is the longest edge in each; with --edge, the length that edges are to have there.
+    #[arg(long, value_name = "COLUMN", conflicts_with = "refine", help_heading = "Quality")]
+    pub(crate) size_by: Option<String>,
+    /// Attribute of polygons that is the largest area of a triangle in each.
+    #[arg(long, value_name = "COLUMN", conflicts_with = "refine", help_heading = "Quality")]
+    pub(crate) area_by: Option<String>,
     /// Triangles that are refined.
     #[arg(
         long, value_name = "FILE", help_heading = "Quality",

@@ -1,26 +1,13 @@
-//! Features of the input in its triangulation: polygons as regions, lines as edges.
+//! Features of the input in its triangulation: rings with their holes, lines as edges.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use delone::{Constrained2, Domains2, EdgeId, Location2};
 use delone_io::Graph;
 
+use super::regions::Regions;
 use crate::files::Unshown;
 use crate::message::note;
-
-/// Gives each part the polygon that it is in, of several the last, by the row of its attributes; the value of a polygon is the number of its
-/// feature in the input, from 1. Seeds of regions go first, and polygons without rows are none. Tells how many there are.
-pub(super) fn claim(c: &Constrained2, graph: &Graph, inside: &mut Domains2) -> usize {
-    let mut rows = vec![None; graph.segments.len()];
-    for ring in &graph.rings {
-        rows[ring.segments.clone()].fill(graph.row_of(ring));
-    }
-    let distinct: BTreeSet<usize> = rows.iter().flatten().copied().collect();
-    let Some(last) = distinct.last().filter(|_| graph.regions.is_empty()) else { return 0 };
-    let numbers: Vec<f64> = (0..=*last).map(|row| (row + 1) as f64).collect();
-    c.claim_polygons(inside, |segment| rows.get(segment.index()).copied().flatten(), &numbers);
-    distinct.len()
-}
 
 /// Leaves out seeds outside of the hull, which are in no part, and tells how many.
 pub(super) fn leave_far_seeds(c: &Constrained2, graph: &mut Graph, quiet: bool) {
@@ -91,7 +78,7 @@ pub(crate) fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
 
 /// The attributes that triangles inside do not have: those of lines, of points that no segment ends at, and of what has neither an edge nor
 /// a triangle to itself.
-pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2) -> Unshown {
+pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2, regions: &Regions) -> Unshown {
     let lines: HashSet<usize> = rows_of_lines(graph).into_iter().flatten().collect();
     let polygons: HashSet<usize> = graph.rings.iter().filter_map(|ring| graph.row_of(ring)).collect();
     let is_inside =
@@ -100,7 +87,7 @@ pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2) -> Uns
     let edges = c.constraint_edges().zip(rows).filter(|edge| is_inside(edge.0));
     let shown: HashSet<usize> = edges.filter_map(|(_, row)| row).collect();
     let triangles = c.triangle_ids().filter(|&t| inside.is_inside(t));
-    let filled: HashSet<usize> = triangles.filter_map(|t| inside.region(t)).collect();
+    let filled: HashSet<usize> = triangles.filter_map(|t| inside.region(t)).map(|r| regions.row(r)).collect();
     let mut ends = vec![false; graph.cloud.xy.len()];
     graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
     Unshown {

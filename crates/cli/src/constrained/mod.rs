@@ -1,6 +1,7 @@
 //! Points with segments: read, triangulated, told of and written.
 
 pub(crate) mod features;
+pub(crate) mod regions;
 
 use std::path::{Path, PathBuf};
 
@@ -20,6 +21,7 @@ use crate::room;
 use crate::stats::Stats;
 use crate::weld;
 use features::Shells;
+use regions::{Claims, Regions};
 
 /// Whether a command is about segments: they were asked for, or files hold them.
 pub fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
@@ -78,8 +80,8 @@ pub(crate) struct Constrained {
     pub(crate) graph: Graph,
     /// The parts of it, and which regions of the input they are.
     pub(crate) inside: Domains2,
-    /// How many polygons of the input are regions.
-    pub(crate) polygons: usize,
+    /// The regions that polygons of the input are.
+    pub(crate) regions: Regions,
     /// The height of every point, those added too.
     pub(crate) heights: Option<Vec<f64>>,
 }
@@ -101,14 +103,15 @@ impl Constrained {
         stats.phase("read");
         let crossings = args.crossings.unwrap_or(CrossingsName::Refuse);
         let name = args.fill.unwrap_or_else(|| usual(input, &graph));
-        Self::of(graph, crossings, (name, false), &input.label(), stats, quiet)
+        let claims = Claims::of(args.overlaps);
+        Self::of(graph, crossings, (name, false, &claims), &input.label(), stats, quiet)
     }
 
     /// Triangulates, and tells what a user should know. Where seeds say what is inside bays of the hull may be kept.
     pub(crate) fn of(
         mut graph: Graph,
         crossings: CrossingsName,
-        (fill, keep_concavities): (FillName, bool),
+        (fill, keep_concavities, claims): (FillName, bool, &Claims),
         label: &Path,
         stats: &mut Stats,
         quiet: bool,
@@ -148,8 +151,8 @@ impl Constrained {
             shells.remark(&triangulation, &graph, &inside).into_iter().for_each(|text| note(quiet, text));
         }
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
-        let polygons = features::claim(&triangulation, &graph, &mut inside);
-        files::heed_unshown(features::unshown(&triangulation, &graph, &inside));
+        let regions = Regions::claim(&triangulation, &graph, &mut inside, claims)?;
+        files::heed_unshown(features::unshown(&triangulation, &graph, &inside, &regions));
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {
@@ -162,7 +165,7 @@ impl Constrained {
             }
             heights
         });
-        let c = Self { triangulation, graph, inside, polygons, heights };
+        let c = Self { triangulation, graph, inside, regions, heights };
         c.tell(stats, quiet);
         Ok(c)
     }
@@ -197,6 +200,16 @@ impl Constrained {
         stats.set("segments", self.graph.segments.len());
         stats.set("constraints", c.constraint_edges().count());
         stats.set("parts", self.inside.parts().len());
+        if let Some(report) = self.regions.report() {
+            let count = self.regions.combined();
+            note(
+                quiet,
+                format_args!(
+                    "regions of several polygons: {count}; they have the attributes of the last, and --stats lists them"
+                ),
+            );
+            stats.set("combined", report);
+        }
         for [first, second] in self.inside.rivals() {
             note(
                 quiet,
@@ -237,10 +250,10 @@ impl Constrained {
         let mut rows = vec![None; c.slot_count()];
         for t in c.triangle_ids() {
             regions[c.index(t)] = self.inside.attribute(t).unwrap_or_default();
-            rows[c.index(t)] = self.inside.region(t);
+            rows[c.index(t)] = self.inside.region(t).map(|region| self.regions.row(region));
         }
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
-        let has_regions = !graph.regions.is_empty() || self.polygons > 1;
+        let has_regions = !graph.regions.is_empty() || self.regions.polygons > 1;
         let mesh = Mesh {
             heights: self.heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
@@ -249,7 +262,7 @@ impl Constrained {
             constraints: Some(&constraints),
             regions: has_regions.then_some(&regions[..]),
             names: Some(&graph.names),
-            features: (self.polygons > 0).then_some(features),
+            features: (self.regions.polygons > 0).then_some(features),
             ..Mesh::new(c, c.points())
         };
         let phase = Phase::start(quiet, "writing");

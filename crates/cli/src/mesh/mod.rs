@@ -30,6 +30,7 @@ use delone_terrain::values::{along, extended};
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
 use crate::constrained::Constrained;
 use crate::constrained::features;
+use crate::constrained::regions::{Claims, Regions};
 use crate::files;
 use crate::message::{Failure, answer, grouped, is_strict, note};
 use crate::progress::Phase;
@@ -78,7 +79,13 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let label = sources.input.label();
     let Material { mut graph, fill, again, .. } = material;
     let naming = Naming::of(args, &mut graph)?;
-    let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
+    let claims = Claims {
+        lengths: args.size_by.clone(),
+        areas: args.area_by.clone(),
+        ..Claims::of(args.graph.overlaps)
+    };
+    let how = (fill, plan.traits.convex, &claims);
+    let c = Constrained::of(graph, plan.crossings, how, &label, &mut stats, quiet)?;
     let layers = &args.layers.layers;
     if plan.min_angle > 0.0 && again.is_none() {
         tell::gap(&c.triangulation, &c.inside, quiet);
@@ -141,8 +148,8 @@ struct Made {
     heights: Option<Vec<f64>>,
     attributes: Option<Attributes>,
     again: Option<Again>,
-    /// How many polygons of the input are regions.
-    polygons: usize,
+    /// The regions that polygons of the input are.
+    of_polygons: Regions,
     naming: Naming,
     /// The middles of sides that are chords of arcs.
     arc_middles: Vec<Middle2>,
@@ -160,7 +167,7 @@ impl Made {
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
-        let Constrained { mut triangulation, mut graph, inside, polygons, heights } = from;
+        let Constrained { mut triangulation, mut graph, inside, regions: of_polygons, heights } = from;
         let regions = std::mem::take(&mut graph.regions);
         let seeds = if fill == FillName::Seeds {
             Seeds2::default().holes(graph.holes.clone()).regions(regions).keep_concavities(plan.traits.convex)
@@ -222,7 +229,7 @@ impl Made {
             heights,
             attributes,
             again,
-            polygons,
+            of_polygons,
             naming,
             arc_middles,
             straight,
@@ -272,7 +279,8 @@ impl Made {
         });
         let regions = self.regions(plan);
         let mut rows = vec![None; c.slot_count()];
-        c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
+        c.triangle_ids()
+            .for_each(|t| rows[c.index(t)] = domains.region(t).map(|region| self.of_polygons.row(region)));
         let features = Rows { table: &graph.cloud.features.table, of: &rows };
         let partners = cells.partners(c);
         let named = |&([v, w], middle): &Middle2| Some(([kept.name(v)?, kept.name(w)?], middle));
@@ -291,7 +299,7 @@ impl Made {
             constraints: Some(&constraints),
             regions: regions.as_deref(),
             names: Some(&self.naming.names),
-            features: (self.polygons > 0).then_some(features),
+            features: (self.of_polygons.polygons > 0).then_some(features),
             attributes: attributes.as_ref(),
             point_markers: points.as_deref(),
             edge_markers: plan.markers != Written::Never,
@@ -314,8 +322,9 @@ impl Made {
     fn regions(&self, plan: &Plan) -> Option<Vec<f64>> {
         let (c, domains) = (&self.triangulation, &self.refined.domains);
         let again = self.again.as_ref().filter(|again| again.has_attributes());
-        let has_names = !self.naming.names.regions().is_empty() && self.polygons > 0;
-        let is_given = again.is_some() || !self.seeds.regions.is_empty() || self.polygons > 1 || has_names;
+        let has_names = !self.naming.names.regions().is_empty() && self.of_polygons.polygons > 0;
+        let is_given =
+            again.is_some() || !self.seeds.regions.is_empty() || self.of_polygons.polygons > 1 || has_names;
         let is_written = match plan.regions {
             Written::AsGiven => is_given,
             Written::Always => true,
@@ -323,7 +332,9 @@ impl Made {
         };
         let of = |t| match again {
             Some(again) => again.attribute(centroid(c.mesh().corners(t).map(|v| c.point(v)))),
-            None if self.polygons > 0 => self.naming.region(domains.attribute(t).unwrap_or_default()),
+            None if self.of_polygons.polygons > 0 => {
+                self.naming.region(domains.attribute(t).unwrap_or_default())
+            }
             None => domains.attribute(t).unwrap_or_default(),
         };
         is_written.then(|| {

@@ -151,6 +151,7 @@ pub struct Domains2 {
 pub(in crate::plane) struct Known {
     pub(super) attribute: f64,
     pub(in crate::plane) max_area: Option<f64>,
+    pub(in crate::plane) max_edge: Option<f64>,
 }
 
 pub(super) const NONE: u32 = u32::MAX;
@@ -285,7 +286,8 @@ impl Constrained2 {
                 Some(first) => domains.rivals.push([first, index]),
             }
         }
-        let known = |seed: &RegionSeed2| Known { attribute: seed.attribute, max_area: seed.max_area };
+        let known =
+            |seed: &RegionSeed2| Known { attribute: seed.attribute, max_area: seed.max_area, max_edge: None };
         domains.regions = regions.iter().map(known).collect();
         Ok(())
     }

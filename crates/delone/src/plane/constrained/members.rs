@@ -5,11 +5,57 @@
 //!
 //! Cost: O(m log m) for m constraint edges, and as much memory.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::domains::{Domains2, Known};
 use super::{Constrained2, SegmentId};
 use crate::ids::EdgeId;
+
+/// The properties of a polygon that is a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PolygonRegion2 {
+    /// A value for all triangles of the region.
+    pub attribute: f64,
+    /// The largest area that a triangle of the region should have, for refinement.
+    pub max_area: Option<f64>,
+    /// The largest length of edges in the region and around it; with [`crate::Refinement::edge`] the length that they are to have.
+    pub max_edge: Option<f64>,
+}
+
+impl PolygonRegion2 {
+    /// A region without bounds of sizes.
+    pub fn new(attribute: f64) -> Self {
+        Self { attribute, max_area: None, max_edge: None }
+    }
+
+    /// Sets [`Self::max_area`]: an area, or `None`.
+    #[must_use]
+    pub fn max_area(self, area: impl Into<Option<f64>>) -> Self {
+        Self { max_area: area.into(), ..self }
+    }
+
+    /// Sets [`Self::max_edge`]: a length, or `None`.
+    #[must_use]
+    pub fn max_edge(self, length: impl Into<Option<f64>>) -> Self {
+        Self { max_edge: length.into(), ..self }
+    }
+}
+
+/// The region of a part that is in several polygons.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Overlaps2 {
+    /// The last of them.
+    #[default]
+    Last,
+    /// The first of them.
+    First,
+    /// The one of the smallest area, rounded; of equal ones the last.
+    Smallest,
+    /// A region of its own for each set of polygons, with the smallest of their sizes.
+    Combined,
+}
 
 /// A border between two parts, seen from one of them: the other part, and the constraint, if there is one.
 type Border = (usize, Option<EdgeId>);
@@ -44,11 +90,94 @@ impl Constrained2 {
         polygon: impl Fn(SegmentId) -> Option<usize>,
         attributes: &[f64],
     ) {
+        let regions: Vec<PolygonRegion2> = attributes.iter().copied().map(PolygonRegion2::new).collect();
+        self.claim_polygons_as(domains, polygon, &regions, Overlaps2::Last);
+    }
+
+    /// As [`Self::claim_polygons`], with sizes for refinement, and a rule for parts in several polygons. Gives the polygons of each combined
+    /// region: its index is that in the result, after all polygons, and its attribute is the index plus 1.
+    ///
+    /// # Panics
+    /// If there is no region for a polygon.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Fill, Overlaps2, PolygonRegion2};
+    ///
+    /// // A square in a larger one.
+    /// let points = [[0, 0], [9, 0], [9, 9], [0, 9], [2, 2], [4, 2], [4, 4], [2, 4]];
+    /// let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]];
+    /// let c = Constrained2::from_parts(&points, &segments)?;
+    /// let mut domains = c.domains(&Fill::NonZero)?;
+    /// let regions = [PolygonRegion2::new(1.0), PolygonRegion2::new(2.0)];
+    /// let made = c.claim_polygons_as(&mut domains, |s| Some(s.index() / 4), &regions, Overlaps2::Combined);
+    /// assert_eq!(made, [[0, 1]]);
+    /// let inner = c.triangle_ids().find(|&t| domains.region(t) == Some(2)).expect("the inner square");
+    /// assert_eq!(domains.attribute(inner), Some(3.0));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn claim_polygons_as(
+        &self,
+        domains: &mut Domains2,
+        polygon: impl Fn(SegmentId) -> Option<usize>,
+        regions: &[PolygonRegion2],
+        overlaps: Overlaps2,
+    ) -> Vec<Vec<usize>> {
         domains.forget_regions();
-        domains.regions = attributes.iter().map(|&attribute| Known { attribute, max_area: None }).collect();
-        let mut of = vec![None; domains.parts.len()];
-        self.each_part_within(domains, polygon, |part, around| of[part] = around.last().copied());
-        domains.parts.iter_mut().zip(of).for_each(|(part, region)| part.region = region);
+        let mut around: Vec<Vec<usize>> = vec![Vec::new(); domains.parts.len()];
+        self.each_part_within(domains, polygon, |part, within| around[part].extend(within));
+        let areas =
+            if overlaps == Overlaps2::Smallest { self.areas_of(domains, &around) } else { BTreeMap::new() };
+        let combined: BTreeSet<&[usize]> = match overlaps {
+            Overlaps2::Combined => around.iter().filter(|all| all.len() > 1).map(Vec::as_slice).collect(),
+            _ => BTreeSet::new(),
+        };
+        let combined: Vec<Vec<usize>> = combined.into_iter().map(<[usize]>::to_vec).collect();
+        let smaller = |a: &&usize, b: &&usize| areas[*a].total_cmp(&areas[*b]).then_with(|| b.cmp(a));
+        for (part, all) in domains.parts.iter_mut().zip(&around) {
+            part.region = match overlaps {
+                Overlaps2::Last => all.last().copied(),
+                Overlaps2::First => all.first().copied(),
+                Overlaps2::Smallest => all.iter().min_by(smaller).copied(),
+                Overlaps2::Combined => match combined.binary_search(all) {
+                    Ok(number) => Some(regions.len() + number),
+                    Err(_) => all.last().copied(),
+                },
+            };
+        }
+        let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
+        let of_all = |(number, all): (usize, &Vec<usize>)| {
+            let sizes = all.iter().map(|&polygon| regions[polygon]);
+            let together = sizes.reduce(|a, b| PolygonRegion2 {
+                max_area: least(a.max_area, b.max_area),
+                max_edge: least(a.max_edge, b.max_edge),
+                ..a
+            });
+            let number = (regions.len() + number + 1) as f64;
+            PolygonRegion2 { attribute: number, ..together.unwrap_or(PolygonRegion2::new(number)) }
+        };
+        let known =
+            regions.iter().copied().chain(combined.iter().enumerate().map(|all| of_all((all.0, all.1))));
+        domains.regions = known
+            .map(|region| Known {
+                attribute: region.attribute,
+                max_area: region.max_area,
+                max_edge: region.max_edge,
+            })
+            .collect();
+        combined
+    }
+
+    /// The area of each polygon, by the parts that are in it. Rounded.
+    fn areas_of(&self, domains: &Domains2, around: &[Vec<usize>]) -> BTreeMap<usize, f64> {
+        let mut of_parts = vec![0.0; domains.parts.len()];
+        for t in self.triangle_ids() {
+            domains.part(t).into_iter().for_each(|part| of_parts[part] += self.area(t));
+        }
+        let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
+        for (all, area) in around.iter().zip(of_parts) {
+            all.iter().for_each(|&polygon| *areas.entry(polygon).or_insert(0.0) += area);
+        }
+        areas
     }
 
     /// Calls for each part with the polygons that it is in.

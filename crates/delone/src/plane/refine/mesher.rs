@@ -338,7 +338,8 @@ impl<'a> Mesher<'a> {
     /// Whether a constraint of the mesh is longer than it may be.
     fn is_long(&self, e: EdgeId) -> bool {
         let mesh = &self.layer.mesh;
-        squared(self.point(mesh.tail(e)), self.point(mesh.head(e))) > self.rules.longest_constraint
+        let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
+        squared(self.point(mesh.tail(e)), self.point(mesh.head(e))) > self.rules.longest_between(domains)
             && (self.is_inside(e.triangle()) || self.is_inside(mesh.twin(e).triangle()))
     }
 

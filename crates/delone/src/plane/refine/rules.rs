@@ -60,6 +60,10 @@ pub(super) struct Rules<'a> {
     length_at: Option<Field<'a>>,
     /// By domain, those inside from 1 on; there is nothing at 0.
     areas: Vec<f64>,
+    /// The squares of the longest edges, by domain.
+    squared_lengths: Vec<f64>,
+    /// The lengths that edges are to have, by domain.
+    wanted_lengths: Vec<f64>,
     /// Domains of boundary layers.
     layers: Range<usize>,
     /// Whether there is any bound of sizes, and whether one is asked for each place.
@@ -95,6 +99,18 @@ impl<'a> Rules<'a> {
         let areas = before.parts[..before.inside].iter().map(own);
         let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();
         let areas: Vec<f64> = std::iter::once(f64::INFINITY).chain(areas).collect();
+        let of_region = |region: Option<usize>| region.and_then(|r| domains.regions[r].max_edge);
+        let lengths = before.parts[..before.inside]
+            .iter()
+            .map(|&part| of_region(domains.parts()[part].region).unwrap_or(f64::INFINITY));
+        let lengths: Vec<f64> = std::iter::once(f64::INFINITY).chain(lengths).collect();
+        // A wish is no bound.
+        let is_wish = wanted.edge.is_some() || wanted.edge_at.is_some();
+        let none = vec![f64::INFINITY; lengths.len()];
+        let has_lengths = !is_wish && lengths.iter().any(|length| length.is_finite());
+        let [wanted_lengths, lengths] = if is_wish { [lengths, none] } else { [none, lengths] };
+        let longest = wanted.max_edge.unwrap_or(f64::INFINITY);
+        let squared_lengths = lengths.iter().map(|length| longest.min(*length).powi(2)).collect();
         let has_fields = wanted.area_at.is_some() || wanted.size_at.is_some() || wanted.refine_if.is_some();
         let unasked = MAX_VERTICES_FOR_ANGLES.max(EACH * before.given);
         // A function may say yes for ever.
@@ -111,9 +127,14 @@ impl<'a> Rules<'a> {
             keep: wanted.keep,
             squared_least: wanted.min_edge * wanted.min_edge,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
-            has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
+            has_sizes: has_fields
+                || has_lengths
+                || wanted.max_edge.is_some()
+                || areas.iter().any(|area| area.is_finite()),
             layers: before.inside + 1..before.with_layers + 1,
             areas,
+            squared_lengths,
+            wanted_lengths,
             has_fields,
             length: wanted.edge.unwrap_or(f64::INFINITY),
             length_at: wanted.edge_at,
@@ -130,7 +151,7 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(super) fn is_large(&self, shape: &Shape, domain: usize) -> bool {
         self.has_sizes
-            && (shape.longest() > self.squared_longest
+            && (shape.longest() > self.squared_lengths[domain]
                 || shape.area() > self.areas[domain]
                 || (self.has_fields && self.is_larger_than_wanted(shape)))
     }
@@ -163,7 +184,8 @@ impl<'a> Rules<'a> {
         }
         let asked = |field: Option<Field>| field.map_or(f64::INFINITY, |field| field(at)).max(0.0);
         let area = self.areas.get(domain).copied().unwrap_or(f64::INFINITY).min(asked(self.area_at));
-        self.squared_longest.min(area).sqrt().min(asked(self.size_at))
+        let length = self.squared_lengths.get(domain).copied().unwrap_or(self.squared_longest);
+        length.min(area).sqrt().min(asked(self.size_at))
     }
 
     /// The length that edges are to have at a place, by what was asked for or what the bounds there let reach.
@@ -176,7 +198,14 @@ impl<'a> Rules<'a> {
 
     /// The length that edges are to have in a domain, by the bound of areas there.
     pub(super) fn length_in(&self, domain: usize) -> f64 {
-        of_area(self.areas.get(domain).copied().unwrap_or(f64::INFINITY))
+        let of = |lengths: &[f64]| lengths.get(domain).copied().unwrap_or(f64::INFINITY);
+        of_area(of(&self.areas)).min(of(&self.wanted_lengths))
+    }
+
+    /// The square of the longest constraint between domains.
+    pub(super) fn longest_between(&self, domains: [usize; 2]) -> f64 {
+        let of = |domain: usize| self.squared_lengths.get(domain).copied().unwrap_or(f64::INFINITY);
+        self.longest_constraint.min(of(domains[0])).min(of(domains[1]))
     }
 
     /// The largest length that edges are to have anywhere.
