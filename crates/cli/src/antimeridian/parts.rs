@@ -5,10 +5,11 @@
 //! chain, along its parallel. O(n log n).
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use delone_io::Graph;
-use delone_predicates::{Sign, orient2d};
+use delone_predicates::{Sign, lexicographic, orient2d};
 
 use super::turns::{Corner, HALF_TURN_DEGREES, Made, POLE_DEGREES, Piece, Side, Walk, reduced};
 
@@ -110,13 +111,13 @@ pub(super) struct Cutting<'a> {
     chains: Vec<Chain>,
     /// Rings that stay whole, and whether they are shells.
     whole: Vec<(Outline, bool)>,
-    /// Corners between which rings go along the meridian.
-    along: Vec<Corner>,
+    /// Corners of rings on the left and on the right border.
+    along: [Vec<Corner>; 2],
 }
 
 impl<'a> Cutting<'a> {
     pub(super) fn new(graph: &'a Graph, made: &'a mut Vec<Made>) -> Self {
-        Self { graph, made, chains: Vec::new(), whole: Vec::new(), along: Vec::new() }
+        Self { graph, made, chains: Vec::new(), whole: Vec::new(), along: Default::default() }
     }
 
     /// Takes the next ring.
@@ -127,8 +128,14 @@ impl<'a> Cutting<'a> {
             0 => last.strip.map(|strip| strip - 2 * ring.winding),
             _ => pieces[i - 1].strip,
         };
-        for piece in pieces.iter().filter(|piece| piece.strip.is_none()) {
-            self.along.extend([piece.from.corner, piece.to.corner]);
+        for Piece { from, to, strip, .. } in pieces {
+            let side = strip.map(|strip| from.side(strip));
+            for (along, border) in self.along.iter_mut().zip([Side::Left, Side::Right]) {
+                match side {
+                    Some(side) => along.extend((side == border).then_some(from.corner)),
+                    None => along.extend([from.corner, to.corner]),
+                }
+            }
         }
         let breaks: Vec<usize> = (0..pieces.len()).filter(|&i| before(i) != pieces[i].strip).collect();
         let Some((&first, &final_)) = breaks.first().zip(breaks.last()) else {
@@ -207,19 +214,23 @@ impl<'a> Cutting<'a> {
             let (p, q) = (pair[0], pair[1]);
             (others[p.0][p.1], others[q.0][q.1]) = (Some(q), Some(p));
         }
-        let mut along: Vec<(f64, Corner)> =
-            self.along.iter().map(|&corner| (self.latitude(corner), corner)).collect();
-        along.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
-        along.dedup_by_key(|corner| corner.0);
+        let along = std::mem::take(&mut self.along).map(|corners| {
+            let mut along: Vec<(f64, Corner)> =
+                corners.into_iter().map(|corner| (self.latitude(corner), corner)).collect();
+            along.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+            along.dedup_by_key(|corner| corner.0);
+            along
+        });
         let mut is_done = vec![false; self.chains.len()];
-        let mut parts = Vec::new();
+        let (mut parts, mut holes) = (Vec::new(), Vec::new());
         for chain in 0..is_done.len() {
             if !is_done[chain] {
                 let outline = self.outline(chain, &others, &along, &mut is_done);
-                parts.extend(self.has_area(&outline).then(|| Part { rings: vec![outline] }));
+                if self.has_area(&outline) {
+                    self.part(outline, &mut parts, &mut holes);
+                }
             }
         }
-        let mut holes = Vec::new();
         for (ring, is_shell) in std::mem::take(&mut self.whole) {
             if is_shell {
                 parts.push(Part { rings: vec![ring] });
@@ -276,7 +287,7 @@ impl<'a> Cutting<'a> {
         &self,
         first: usize,
         others: &[[Option<End>; 2]],
-        along: &[(f64, Corner)],
+        along: &[Vec<(f64, Corner)>; 2],
         is_done: &mut [bool],
     ) -> Outline {
         let mut outline = Outline::new();
@@ -295,6 +306,7 @@ impl<'a> Cutting<'a> {
             let Some(other) = others[chain][1 - start] else { break };
             let (from, to) = (self.end((chain, 1 - start))[0], self.end(other)[0]);
             let [low, high] = [from[1].min(to[1]), from[1].max(to[1])];
+            let along = &along[usize::from(from[0] > 0.0)];
             let begin = along.partition_point(|corner| corner.0 <= low);
             let end = along.partition_point(|corner| corner.0 < high).max(begin);
             let between = along[begin..end].iter().map(|&(_, corner)| (corner, from[0], None));
@@ -320,6 +332,56 @@ impl<'a> Cutting<'a> {
             }
             _ => outline.push(next),
         }
+    }
+
+    /// Makes parts of a ring, which may touch itself where a hole touched its shell. Loops that turn the other way are holes.
+    fn part(&self, outline: Outline, parts: &mut Vec<Part>, holes: &mut Vec<Outline>) {
+        let first =
+            outline.iter().map(|&(corner, x, _)| self.xy(&(corner, x))).min_by(|p, q| lexicographic(*p, *q));
+        let loops: Vec<(Sign, [f64; 2], Outline)> = self
+            .loops(outline)
+            .into_iter()
+            .map(|ring| {
+                let (turn, least) = self.turn(&ring);
+                (turn, least, ring)
+            })
+            .collect();
+        let outer = loops.iter().find(|ring| Some(ring.1) == first).map(|ring| ring.0);
+        for (turn, _, ring) in loops {
+            if Some(turn) == outer {
+                parts.push(Part { rings: vec![ring] });
+            } else {
+                holes.push(ring);
+            }
+        }
+    }
+
+    /// The loops of a ring between visits of one place, of three or more corners. O(n log n).
+    fn loops(&self, outline: Outline) -> Vec<Outline> {
+        let mut loops = Vec::new();
+        let mut open = Outline::new();
+        let mut visits: BTreeMap<[u64; 2], usize> = BTreeMap::new();
+        let key = |&(corner, x, _): &(Corner, f64, Option<usize>)| {
+            [x, self.latitude(corner)].map(|x| (x + 0.0).to_bits())
+        };
+        for corner in outline {
+            if let Some(&at) = visits.get(&key(&corner)).filter(|&&at| at + 2 < open.len()) {
+                let closed = open.split_off(at);
+                closed.iter().for_each(|corner| _ = visits.remove(&key(corner)));
+                loops.push(closed);
+            }
+            visits.insert(key(&corner), open.len());
+            open.push(corner);
+        }
+        loops.push(open);
+        loops
+    }
+
+    /// How a ring turns at its first place, from the west and then from the south, and that place.
+    fn turn(&self, ring: &Outline) -> (Sign, [f64; 2]) {
+        let (n, at) = (ring.len(), |i: usize| self.xy(&(ring[i].0, ring[i].1)));
+        let least = (0..n).min_by(|&i, &j| lexicographic(at(i), at(j))).unwrap_or_default();
+        (orient2d(at((least + n - 1) % n), at(least), at((least + 1) % n)), at(least))
     }
 
     /// Whether a ring is more than a line along a parallel.
