@@ -73,9 +73,16 @@ pub(super) fn cut(
         "segments": counts.segments,
         "around_poles": work.around.len(),
         "added_points": rebuilt.added(),
+        "moved_points": rebuilt.moved(),
     });
     stats.set("antimeridian", report);
     work.tell(&counts, quiet);
+    if rebuilt.moved() > 0 {
+        note(
+            quiet,
+            format_args!("points moved by 360 degrees of longitude: {}", grouped(rebuilt.moved() as u64)),
+        );
+    }
     let changes = rebuilt.changes();
     let straight = changes.apply(graph);
     let seeds = graph.holes.iter_mut().chain(graph.regions.iter_mut().map(|region| &mut region.at));

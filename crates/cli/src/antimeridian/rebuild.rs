@@ -44,6 +44,12 @@ impl<'a> Rebuilt<'a> {
         self.added.len()
     }
 
+    /// How many points of the input have got another longitude.
+    pub(super) fn moved(&self) -> usize {
+        let places = self.given.cloud.xy.iter().zip(&self.placed);
+        places.filter(|(p, x)| x.is_some_and(|x| x.to_bits() != p[0].to_bits())).count()
+    }
+
     /// The point of a corner at a longitude.
     fn point(&mut self, corner: Corner, x: f64) -> usize {
         if let Corner::Given(i) = corner {
