@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Judges polygons of longitude and latitude that are cut at 180 degrees, as GEOS does: with the places and the area of what was given.
+"""Judges polygons of longitude and latitude that are cut at 180 degrees, as GEOS does: they are where what was given is.
 
 .ci/judges/antimeridian.py PROGRAM FOLDER [SET...]
 """
@@ -49,7 +49,11 @@ def caps(seed, step, count=60):
     found = []
     while len(found) < count:
         n = random.integers(4, 20)
-        at = np.unique(random.uniform(-180, 180, n)) if not step else step * np.unique(random.integers(-180 // step, 180 // step, n))
+        at = (
+            np.unique(random.uniform(-180, 180, n))
+            if not step
+            else step * np.unique(random.integers(-180 // step, 180 // step, n))
+        )
         if np.diff(at, append=at[0] + 360).max() >= 180:
             continue
         north = random.random() < 0.5

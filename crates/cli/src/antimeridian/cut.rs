@@ -26,7 +26,7 @@ enum Polygon {
     Cut(Vec<Part>),
 }
 
-/// What becomes of a graph.
+/// The work on a graph: each line and polygon of it, cut.
 struct Work<'a> {
     graph: &'a Graph,
     made: Vec<Made>,
@@ -267,7 +267,7 @@ impl<'a> Work<'a> {
         Ok(Some(walk.pieces))
     }
 
-    /// What becomes of the polygon of these rings.
+    /// Cuts the polygon of these rings.
     fn polygon(&mut self, rings: &[usize]) -> Result<Polygon, Failure> {
         let graph = self.graph;
         let all = || rings.iter().map(|&ring| &graph.rings[ring]);

@@ -1,7 +1,7 @@
 //! Lines and polygons of longitude and latitude that cross the meridian of 180 degrees or hold a pole: told, or cut there.
 //!
 //! As plane coordinates, an edge from 179 to -179 degrees goes around the world. `--antimeridian cut` goes the short way, as RFC 7946 says in
-//! section 3.1.9 (`parts`). Walks along longitudes are in `turns`, what becomes of the graph is in `rebuild`.
+//! section 3.1.9 (`parts`). Walks along longitudes are in `turns`, the new graph is in `rebuild`.
 
 mod cut;
 mod parts;

@@ -112,7 +112,7 @@ impl<'a> Rebuilt<'a> {
         }
     }
 
-    /// What takes the place of the parts of the graph.
+    /// Its new parts, to be put in the place of the old ones.
     pub(super) fn changes(self) -> Changes {
         Changes {
             placed: self.placed,
