@@ -4,6 +4,7 @@
 
 mod about;
 mod alpha;
+mod antimeridian;
 #[doc(hidden)]
 pub mod args;
 mod check;

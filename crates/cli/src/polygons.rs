@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use delone::{Crossings, PolygonTriangles2, Polygons2};
 use delone_io::{Contents, Graph, Patches, write_patches};
 
+use crate::antimeridian;
 use crate::args::{CrossingsName, InputArgs, PolygonsArgs};
 use crate::constrained::features::filled_holes;
 use crate::files;
@@ -24,6 +25,7 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
     let mut graph = files::polygons(&input, quiet)?;
+    antimeridian::heed(&mut graph, args.antimeridian, &input, &mut stats, quiet)?;
     weld::weld(&mut graph, args.weld, &input.label(), &mut stats, quiet)?;
     let polygons = corners(&graph);
     if graph.is_border.contains(&false) {

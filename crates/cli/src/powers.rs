@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use delone::{Delaunay2, Error, Region2, Regular2};
 use delone_io::{Diagram, Format};
 
+use crate::antimeridian;
 use crate::args::VoronoiArgs;
 use crate::clip::{is_polygon, merge, not_merged, polygon_region, region};
 use crate::message::{Failure, note};
@@ -35,7 +36,7 @@ pub(crate) fn run(
         with_areas(args, said, &mut stats, quiet)?
     } else {
         let sites = Weighted::read(&args.input, &args.weights, &mut stats, quiet)?;
-        let region = clip(args, &sites.points, quiet)?;
+        let region = clip(args, &sites.points, &mut stats, quiet)?;
         (sites, region)
     };
     let Weighted { triangulation: r, points, about } = sites;
@@ -66,9 +67,9 @@ pub(crate) fn run(
 }
 
 /// The region to clip to.
-fn clip(args: &VoronoiArgs, points: &[[f64; 2]], quiet: bool) -> Result<Region2, Failure> {
+fn clip(args: &VoronoiArgs, points: &[[f64; 2]], stats: &mut Stats, quiet: bool) -> Result<Region2, Failure> {
     if is_polygon(args) {
-        polygon_region(args, &files::rings(&args.clip, quiet)?)
+        polygon_region(args, &antimeridian::rings_beside(&args.clip, args.antimeridian, stats, quiet)?)
     } else {
         // The hull of the points, whatever they weigh.
         region(args, &room::build(points, Delaunay2::FASTEST, &args.input.label(), quiet)?)
@@ -92,7 +93,7 @@ fn with_areas(
     } else {
         beside(&args.input, said, points.len(), "areas", quiet)?
     };
-    let region = clip(args, &points, quiet)?;
+    let region = clip(args, &points, stats, quiet)?;
     stats.phase("read");
     let phase = Phase::start(quiet, "weighing");
     let (r, prescribed) =

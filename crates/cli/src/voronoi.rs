@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use delone::{Delaunay2, Relaxation2};
-use delone_io::{Contents, Diagram};
+use delone_io::{Cloud, Contents, Diagram};
 
-use crate::args::VoronoiArgs;
+use crate::antimeridian;
+use crate::args::{AntimeridianName, VoronoiArgs};
 use crate::clip::{is_polygon, merge, not_merged, polygon_region, refuse_numbers, region};
 use crate::files;
 use crate::message::Failure;
@@ -48,9 +49,10 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     if args.weights.given().is_some() || args.areas.is_some() {
         return powers::run(args, &outputs, sites_format, stats, quiet);
     }
-    let (mut points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
-    weld::weld_points(&mut points, args.weld, &args.input.label(), &mut stats, quiet)?;
-    let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
+    let (points, about) = read(args, &mut stats, quiet)?;
+    let how = args.antimeridian;
+    let rings =
+        if polygon { antimeridian::rings_beside(&args.clip, how, &mut stats, quiet)? } else { Vec::new() };
     stats.phase("read");
     let build = |points: &[[f64; 2]]| room::build(points, Delaunay2::FASTEST, &args.input.label(), quiet);
     let mut triangulation: Delaunay2 = build(&points)?;
@@ -116,6 +118,15 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(args.input.stats.as_deref())
 }
 
+/// Reads the sites, and joins or moves them as it is asked for.
+fn read(args: &VoronoiArgs, stats: &mut Stats, quiet: bool) -> Result<(Vec<[f64; 2]>, Cloud), Failure> {
+    let (mut points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
+    let (how, crs) = (args.antimeridian, about.crs.as_ref());
+    antimeridian::heed_points(&mut points, crs, how, &args.input, stats, quiet)?;
+    weld::weld_points(&mut points, args.weld, &args.input.label(), stats, quiet)?;
+    Ok((points, about))
+}
+
 /// Refuses numbers and options that do not go together.
 fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
     refuse_numbers(args)?;
@@ -128,6 +139,10 @@ fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
         && args.areas.is_none();
     if args.weld.is_some() && !is_plain {
         return Err(Failure::usage("--weld is for points in the plane without weights", "leave it out"));
+    }
+    if args.antimeridian == Some(AntimeridianName::Cut) && !is_plain {
+        let what = "--antimeridian cut is for points in the plane without weights";
+        return Err(Failure::usage(what, "leave it out"));
     }
     if args.cut.is_given() && !args.dim.is_space() {
         return Err(Failure::usage("--cut is for space", "add --dim 3, or leave it out"));

@@ -4,6 +4,7 @@
 const PROGRAM: &str = env!("CARGO_BIN_EXE_delone");
 
 mod alpha;
+mod antimeridian;
 mod arcs;
 mod attributes;
 #[cfg(target_os = "linux")]

@@ -107,7 +107,7 @@ fn attributes_are_sizes() {
 #[test]
 fn an_attribute_that_is_no_size_is_named() {
     let place = Place::new();
-    place.file("three.geojson", &THREE.replace("\"h\":0.25", "\"h\":-1"));
+    place.file("three.geojson", THREE.replace("\"h\":0.25", "\"h\":-1"));
     for (option, status, expected) in [
         ("--size-by h", 1, "the attribute \"h\" of feature 2 is no size"),
         ("--area-by m", 1, "the attribute \"m\" of feature 1 is no size"),

@@ -47,6 +47,7 @@ mod lexicographic;
 mod line;
 mod lune;
 mod mean;
+mod ordinate;
 mod orient;
 mod orient3d;
 mod orthosphere;
@@ -82,6 +83,7 @@ pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
 pub use line::{Line, Spot, circumcenter, power_center};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
 pub use mean::mean;
+pub use ordinate::ordinate;
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d, orient3d_moved};
 pub use orthosphere::{

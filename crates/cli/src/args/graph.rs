@@ -16,6 +16,9 @@ pub struct GraphArgs {
     /// Join what nearly touches: points at most this far apart become one, and vertices at most this far from a segment become part of it.
     #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
     pub(crate) weld: Option<f64>,
+    /// Treatment of lines and polygons of longitude and latitude that cross the meridian of 180 degrees or hold a pole [default: keep].
+    #[arg(long, value_name = "HOW")]
+    pub(crate) antimeridian: Option<AntimeridianName>,
     /// Treatment of segments that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,
@@ -33,10 +36,20 @@ impl GraphArgs {
     pub(crate) fn is_given(&self) -> bool {
         self.segments.is_some()
             || self.weld.is_some()
+            || self.antimeridian == Some(AntimeridianName::Cut)
             || self.crossings.is_some()
             || self.fill.is_some()
             || self.overlaps.is_some()
     }
+}
+
+/// The treatment of what crosses the meridian of 180 degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AntimeridianName {
+    /// Coordinates are taken as those of the plane: an edge from 179 to -179 goes around the world, which is told.
+    Keep,
+    /// Edges go the short way, and are cut there. Rings that go around a pole are closed along it.
+    Cut,
 }
 
 /// The treatment of segments that cross.

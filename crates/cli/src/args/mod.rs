@@ -35,7 +35,7 @@ pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs};
 pub(crate) use edges::EdgeArgs;
 pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
-pub use graph::{CrossingsName, FillName, GraphArgs, OverlapsName};
+pub use graph::{AntimeridianName, CrossingsName, FillName, GraphArgs, OverlapsName};
 pub(crate) use heights::{ContoursArgs, SimplifyArgs};
 pub use las::LasArgs;
 pub(crate) use mesh::{ColorName, KeepName, LayerArgs, MeshArgs, PlacementName};

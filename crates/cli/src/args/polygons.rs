@@ -7,7 +7,7 @@ use delone::RingFill;
 use delone_io::{Contents, Format};
 
 use super::formats;
-use super::{CrossingsName, WktArgs, length};
+use super::{AntimeridianName, CrossingsName, WktArgs, length};
 
 /// Triangulate polygons.
 #[derive(Debug, Args)]
@@ -49,6 +49,9 @@ pub(crate) struct PolygonsArgs {
     /// Join what nearly touches: points at most this far apart become one, and vertices at most this far from a side become part of it.
     #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
     pub(crate) weld: Option<f64>,
+    /// Treatment of polygons of longitude and latitude that cross the meridian of 180 degrees or hold a pole [default: keep].
+    #[arg(long, value_name = "HOW")]
+    pub(crate) antimeridian: Option<AntimeridianName>,
     /// Treatment of sides of a polygon that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,

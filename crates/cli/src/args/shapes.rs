@@ -9,7 +9,7 @@ use delone_io::picture::Camera;
 use delone_io::{Contents, Format};
 
 use super::formats;
-use super::{DimArgs, GraphArgs, InputArgs, PeriodicArgs, WeightArgs, WktArgs, length};
+use super::{AntimeridianName, DimArgs, GraphArgs, InputArgs, PeriodicArgs, WeightArgs, WktArgs, length};
 use crate::message::Failure;
 
 /// Convex hull.
@@ -176,6 +176,9 @@ pub(crate) struct VoronoiArgs {
     /// largest coordinate.
     #[arg(long, value_name = "LENGTH|auto", value_parser = Merge::parse, allow_negative_numbers = true)]
     pub(crate) merge: Option<Merge>,
+    /// Treatment of polygons to clip to, of longitude and latitude, that cross the meridian of 180 degrees or hold a pole [default: keep].
+    #[arg(long, value_name = "HOW")]
+    pub(crate) antimeridian: Option<AntimeridianName>,
     /// Sites at most this far apart become one, before the cells are made.
     #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
     pub(crate) weld: Option<f64>,

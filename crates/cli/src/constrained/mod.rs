@@ -13,6 +13,7 @@ use delone::{
 use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Names, Rows, Trim, picture, write_mesh};
 use delone_terrain::values::extended;
 
+use crate::antimeridian;
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
 use crate::message::{Failure, lost, note};
@@ -96,6 +97,7 @@ impl Constrained {
         quiet: bool,
     ) -> Result<Self, Failure> {
         let mut graph = files::graph(input, args.segments.as_deref(), quiet)?;
+        antimeridian::heed(&mut graph, args.antimeridian, input, stats, quiet)?;
         weld::weld(&mut graph, args.weld, &input.label(), stats, quiet)?;
         if let Some(heights) = &mut graph.cloud.z {
             rule.settle_equal(&graph.cloud.xy, heights);

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use delone_io::{Format, Graph, Source, decompressed};
+use delone_io::{Format, Graph, Rings, Source, decompressed};
 
 use super::systems::{self, Role};
 use super::{READING, apart, beside, format, format_beside, heed, open, options, tell, wrong};
@@ -109,12 +109,12 @@ pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
 }
 
 /// Reads the rings of polygons.
-pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Rings, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     let found = delone_io::read_rings_beside(source, format, &mut beside(path));
     let mut found = found.map_err(|error| wrong(path, format, &error))?;
     found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     systems::find_system(&mut found.crs, path, Role::Beside, quiet)?;
-    Ok(found.rings)
+    Ok(found)
 }

@@ -8,7 +8,8 @@ use delone_io::{Attributes, Format, Graph};
 
 use super::field::Elements;
 use super::plan::Plan;
-use crate::args::{FillName, InputArgs, MeshArgs};
+use crate::antimeridian;
+use crate::args::{AntimeridianName, FillName, InputArgs, MeshArgs};
 use crate::constrained::usual;
 use crate::files;
 use crate::message::Failure;
@@ -60,6 +61,10 @@ impl Sources {
         if args.graph.weld.is_some() && args.refine.is_some() {
             let help = "weld the outline before it is meshed, or leave --weld out";
             return Err(Failure::usage("--weld is not for triangles that are refined", help));
+        }
+        if args.graph.antimeridian == Some(AntimeridianName::Cut) && args.refine.is_some() {
+            let help = "cut the outline before it is meshed, or leave --antimeridian out";
+            return Err(Failure::usage("--antimeridian cut is not for triangles that are refined", help));
         }
         let mut sources = Self {
             input: args.input.clone(),
@@ -118,6 +123,9 @@ impl Sources {
         quiet: bool,
     ) -> Result<Material, Failure> {
         let (mut graph, besides) = files::graph_with_points(&self.input, self.segments.as_deref(), quiet)?;
+        if self.has_segments && self.refine.is_none() {
+            antimeridian::heed(&mut graph, args.graph.antimeridian, &self.input, stats, quiet)?;
+        }
         weld::weld(&mut graph, args.graph.weld, &self.input.label(), stats, quiet)?;
         let mut fill = args.graph.fill.unwrap_or_else(|| usual(&self.input, &graph));
         if !self.has_segments {

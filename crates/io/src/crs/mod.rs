@@ -150,6 +150,19 @@ impl Crs {
         }
     }
 
+    /// Whether its coordinates are surely longitude and latitude.
+    ///
+    /// ```
+    /// use delone_io::Crs;
+    ///
+    /// let named = Crs::of_name("urn:ogc:def:crs:OGC:1.3:CRS84").expect("a system");
+    /// assert!(named.is_longitude_latitude() && Crs::of_epsg(4258).is_longitude_latitude());
+    /// assert!(!Crs::of_epsg(25832).is_longitude_latitude());
+    /// ```
+    pub fn is_longitude_latitude(&self) -> bool {
+        self.is_geographic == Some(true) || self.is_plain_degrees()
+    }
+
     /// Whether its number stands for a horizontal and a vertical system together.
     pub(crate) fn is_compound(&self) -> bool {
         self.epsg.is_some_and(codes::is_compound)
