@@ -27,6 +27,7 @@ mod info;
 mod instances;
 mod interpolate;
 mod limits;
+mod lines;
 mod locate;
 mod memory;
 mod mesh;

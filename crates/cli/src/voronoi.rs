@@ -6,9 +6,10 @@ use delone::{Delaunay2, Relaxation2};
 use delone_io::{Cloud, Contents, Diagram};
 
 use crate::antimeridian;
-use crate::args::{AntimeridianName, VoronoiArgs};
+use crate::args::{AntimeridianName, OfName, VoronoiArgs};
 use crate::clip::{is_polygon, merge, not_merged, polygon_region, refuse_numbers, region};
 use crate::files;
+use crate::lines;
 use crate::message::Failure;
 use crate::orders;
 use crate::polyhedra;
@@ -46,6 +47,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     }
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     let mut stats = Stats::start();
+    if args.of != OfName::Points {
+        return lines::run(args, &outputs, sites_format, stats, quiet);
+    }
     if args.weights.given().is_some() || args.areas.is_some() {
         return powers::run(args, &outputs, sites_format, stats, quiet);
     }
@@ -132,6 +136,19 @@ fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
     refuse_numbers(args)?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
+    }
+    if args.of != OfName::Points {
+        let is_more = args.dim.is_space()
+            || args.space.periodic.is_some()
+            || args.weights.given().is_some()
+            || args.areas.is_some()
+            || args.order.is_some()
+            || args.relax > 0
+            || args.merge.is_some();
+        if is_more {
+            let help = "leave out what is for points: --dim 3, --periodic, --weights, --radii, --areas, --order, --relax, --merge";
+            return Err(Failure::usage("--of lines and --of areas are for the plane, without weights", help));
+        }
     }
     let is_plain = !args.dim.is_space()
         && args.space.periodic.is_none()

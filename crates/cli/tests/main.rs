@@ -11,6 +11,7 @@ mod attributes;
 mod bytes;
 mod cells;
 mod diagrams;
+mod districts;
 mod dtm;
 #[cfg(feature = "parquet")]
 mod features;

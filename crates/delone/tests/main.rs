@@ -18,6 +18,7 @@ mod hints;
 mod hull;
 mod hull_merged;
 mod language;
+mod lines;
 mod locate;
 mod members;
 mod metamorphic;

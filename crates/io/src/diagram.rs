@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
+use delone::{Cells2, LineCells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
-use crate::{Crs, Features, Table};
+use crate::{Crs, Features, Rows, Table};
 
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Debug)]
@@ -18,6 +18,19 @@ pub struct Diagram<'a, T> {
     /// The attributes of the sites, which their cells have in GeoJSON, FlatGeobuf, GeoPackage and CSV; one that is called `site` or `area` is `site_2` or `area_2`
     /// there.
     pub features: Option<&'a Features>,
+}
+
+/// Clipped cells of lines.
+#[derive(Debug)]
+pub struct LineDiagram<'a> {
+    /// The cells.
+    pub cells: &'a LineCells2,
+    /// How many lines there are.
+    pub count: usize,
+    /// The system of coordinates; formats that can say it do.
+    pub crs: Option<&'a Crs>,
+    /// The attributes of the lines, as those of sites in [`Diagram`].
+    pub features: Option<Rows<'a>>,
 }
 
 /// Clipped regions of a diagram of higher order.
@@ -141,6 +154,51 @@ impl<T: Triangulation<Point = [f64; 2]>> Tiles for Diagram<'_, T> {
 
     fn row(&self, tile: VertexId) -> Option<usize> {
         self.features?.row(tile.index())
+    }
+}
+
+impl Tiles for LineDiagram<'_> {
+    type Tile = VertexId;
+
+    fn tiles(&self) -> impl Iterator<Item = VertexId> {
+        (0..self.count).map(VertexId::new)
+    }
+
+    fn rings(&self, tile: VertexId) -> impl Iterator<Item = Ring<'_>> + Clone {
+        self.cells.cells.rings(tile)
+    }
+
+    fn area(&self, tile: VertexId) -> f64 {
+        self.cells.cells.area(tile)
+    }
+
+    fn property(&self) -> &'static str {
+        "site"
+    }
+
+    fn write_value(&self, out: &mut dyn Write, tile: VertexId) -> io::Result<()> {
+        write!(out, "{}", tile.index())
+    }
+
+    fn title(&self, tile: VertexId) -> String {
+        tile.index().to_string()
+    }
+
+    fn sites(&self) -> impl Iterator<Item = (VertexId, [f64; 2])> {
+        let LineCells2 { lines, sites, .. } = self.cells;
+        lines.iter().map(|&line| VertexId::new(line)).zip(sites.iter().copied())
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.crs
+    }
+
+    fn table(&self) -> Option<&Table> {
+        self.features.map(|features| features.table)
+    }
+
+    fn row(&self, tile: VertexId) -> Option<usize> {
+        self.features?.of.get(tile.index()).copied().flatten()
     }
 }
 

@@ -41,6 +41,7 @@ mod polyhedra;
 mod raster;
 mod solid;
 mod strings;
+mod tiled;
 mod xml;
 
 pub use answers::{Answers, Found, write_answers};
@@ -52,7 +53,7 @@ pub use columns::{Column, write_columns};
 pub use contours::{ContourMap, write_contours};
 pub use crs::{Crs, GeoKeys};
 pub use delone::surface::{Border, Cut, Trim};
-pub use diagram::{Diagram, OrderDiagram};
+pub use diagram::{Diagram, LineDiagram, OrderDiagram};
 pub use error::Error;
 pub use features::{ColumnType, Features, Table, Value};
 pub use filtration::write_filtration;
@@ -83,11 +84,11 @@ pub use raster::{
     read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};
+pub use tiled::{write_diagram, write_lines_diagram, write_orders};
 
 use std::io::{BufRead, Seek};
 
 use chunks::Chunks;
-use delone::Triangulation;
 use formats::shapes::Purpose;
 use formats::vector;
 
@@ -361,71 +362,6 @@ fn read_rings_with(source: Box<dyn Source>, format: Format, beside: Option<Besid
 /// Reads the rings of polygons of a file and what their system is from those beside it ([`Format::sides`]).
 pub fn read_rings_beside(source: Box<dyn Source>, format: Format, beside: Beside) -> Result<Rings, Error> {
     read_rings_with(source, format, Some(beside))
-}
-
-/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, FlatGeobuf or GeoPackage,
-/// or as CSV with the columns `site,area,...,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
-/// binary, one collection, without index and area; or as a picture whose longer side has `size` pixels.
-///
-/// The rings are the same in all of them, bit for bit. A cell that is empty has its place: no geometry in GeoJSON, an empty
-/// polygon in the other formats. An area beyond the range of numbers is null in GeoJSON and an empty field in CSV.
-///
-/// # Errors
-/// [`Error::Unsupported`] for other formats, and those of the output.
-///
-/// ```
-/// use delone::{Delaunay2, Region2};
-/// use delone_io::{Diagram, Format, write_diagram};
-///
-/// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0]])?;
-/// let cells = d.voronoi().clip(&Region2::rectangle([0.0, 0.0], [4.0, 1.0])?);
-/// let diagram = Diagram { triangulation: &d, cells: &cells, crs: None, features: None };
-/// let mut file = Vec::new();
-/// write_diagram(&mut file, Format::Text, &diagram, 800)?;
-/// assert!(String::from_utf8(file)?.starts_with("site,area,wkt\n0,2.0,\"POLYGON (("));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn write_diagram(
-    out: &mut dyn std::io::Write,
-    format: Format,
-    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
-    size: u32,
-) -> Result<(), Error> {
-    write_tiles(out, format, diagram, size)
-}
-
-/// Writes the regions of a diagram of higher order, each with the input indices of its sites (`sites`, in CSV apart by spaces) and its
-/// area, in the formats of [`write_diagram`].
-///
-/// # Errors
-/// [`Error::Unsupported`] for other formats, and those of the output.
-pub fn write_orders(
-    out: &mut dyn std::io::Write,
-    format: Format,
-    diagram: &OrderDiagram,
-    size: u32,
-) -> Result<(), Error> {
-    write_tiles(out, format, diagram, size)
-}
-
-fn write_tiles(
-    out: &mut dyn std::io::Write,
-    format: Format,
-    diagram: &impl diagram::Tiles,
-    size: u32,
-) -> Result<(), Error> {
-    match format {
-        Format::GeoJson => formats::geojson::write_cells(out, diagram)?,
-        Format::Wkt | Format::WktCollection => {
-            formats::cells::write_wkt(out, diagram, format == Format::WktCollection)?;
-        }
-        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Cells(diagram))?,
-        Format::Text => formats::cells::write_csv(out, diagram)?,
-        Format::Wkb => formats::cells::write_wkb(out, diagram)?,
-        Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
-        _ => return Err(format.without(Contents::Cells, Direction::Written)),
-    }
-    Ok(())
 }
 
 /// Writes bare points of the plane (D = 2) or of space (D = 3).

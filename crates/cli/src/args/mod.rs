@@ -46,7 +46,7 @@ pub(crate) use polygons::PolygonsArgs;
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use relief::{LightArgs, ReliefArgs, ReliefName};
 pub use run::RunArgs;
-pub(crate) use shapes::{CameraArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
+pub(crate) use shapes::{CameraArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, OfName, VoronoiArgs};
 pub use strategy::{LocateName, StrategyArgs};
 pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
 pub(crate) use tiles::{TilesArgs, WindowArgs};

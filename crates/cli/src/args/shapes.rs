@@ -134,6 +134,7 @@ impl CutArgs {
   delone voronoi shops.csv -o cells.csv -o cells.wkt -o cells.wkb
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
   delone voronoi shops.csv --order 3 -o three-nearest.geojson
+  delone voronoi roads.geojson --of lines --tolerance 1 -o nearest-road.geojson
   delone voronoi shops.csv --areas customers -o districts.geojson
   delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
   delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
@@ -182,13 +183,17 @@ pub(crate) struct VoronoiArgs {
     /// Sites at most this far apart become one, before the cells are made.
     #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
     pub(crate) weld: Option<f64>,
+    /// The sites: points, lines (each feature, which may be a polygon for its border), or areas (polygons that do not overlap). The cell of a line is where it is the nearest one.
+    #[arg(long, value_name = "WHAT", default_value = "points")]
+    pub(crate) of: OfName,
     /// Where which K sites are the nearest: the diagram of order K, at most the number of sites.
     #[arg(long, value_name = "K", conflicts_with_all = ["relax", "tolerance", "weights", "radii"])]
     pub(crate) order: Option<usize>,
     /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) relax: usize,
-    /// Stop relaxing when no site moves further than this, in coordinate units.
+    /// Stop relaxing when no site moves further than this, in coordinate units. With --of lines or areas, how far a border may be from where
+    /// both are equally far away; 0 is a thousandth of the diagonal of the region.
     #[arg(long, value_name = "DISTANCE", default_value_t = 0.0)]
     pub(crate) tolerance: f64,
     /// Write the sites, as relaxed, to a file of points.
@@ -206,6 +211,14 @@ pub(crate) struct VoronoiArgs {
     pub(crate) camera: CameraArgs,
     #[command(flatten)]
     pub(crate) cut: CutArgs,
+}
+
+/// The sites of a diagram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OfName {
+    Points,
+    Lines,
+    Areas,
 }
 
 /// The length up to which sides are contracted.

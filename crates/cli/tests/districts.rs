@@ -1,0 +1,95 @@
+//! `voronoi --of lines|areas`: cells of what is no point.
+
+use serde_json::Value;
+
+use crate::place::{Place, text};
+
+const ROADS: &str = r#"{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"name":"north"},"geometry":{"type":"LineString","coordinates":[[0,3],[4,3]]}},
+{"type":"Feature","properties":{"name":"south"},"geometry":{"type":"MultiLineString","coordinates":[[[0,1],[2,1]],[[2,1],[4,1]]]}},
+{"type":"Feature","properties":{"name":"mast"},"geometry":{"type":"Point","coordinates":[9,9]}}]}"#;
+
+fn json(place: &Place, name: &str) -> Value {
+    serde_json::from_slice(&std::fs::read(place.path(name)).expect("a file")).expect("JSON")
+}
+
+#[test]
+fn roads_have_cells_with_their_attributes() {
+    let place = Place::new();
+    place.file("roads.geojson", ROADS);
+    let output = place.run(
+        "voronoi roads.geojson --of lines --tolerance 0.01 --box 0,0,4,4 -o c.geojson -o c.csv -o c.svg -o c.gpkg --sites s.npy --stats s.json",
+    );
+    let told = text(&output.stderr);
+    assert!(output.status.success() && told.contains("points without a line are left out"), "{told}");
+    let cells = json(&place, "c.geojson");
+    let features = cells["features"].as_array().expect("features");
+    let of = |k: usize, name: &str| features[k]["properties"][name].clone();
+    assert_eq!((features.len(), of(0, "name"), of(1, "name")), (2, "north".into(), "south".into()));
+    assert_eq!(of(0, "site"), 0);
+    // A border of 4 is off by the tolerance at most.
+    assert!([0, 1].iter().all(|&k| (of(k, "area").as_f64().expect("an area") - 8.0).abs() <= 0.04));
+    let stats = json(&place, "s.json");
+    assert_eq!((&stats["lines"], &stats["tolerance"]), (&2.into(), &0.01.into()));
+    assert!(
+        stats["sites"].as_u64().expect("a count") >= 4
+            && stats["deviation"].as_f64().expect("a length") <= 0.01
+    );
+}
+
+/// Without attributes a chain is a line, and a polygon is one with its holes.
+#[test]
+fn what_has_no_attributes_is_counted() {
+    let place = Place::new();
+    place.file("a.wkt", "LINESTRING (0 0, 1 0, 2 0)\nLINESTRING (0 2, 2 2)\nPOLYGON ((3 0, 4 0, 4 2, 3 2, 3 0), (3.2 0.5, 3.8 0.5, 3.8 1.5, 3.2 1.5, 3.2 0.5))\n");
+    place.succeed("voronoi a.wkt --of lines -o c.geojson");
+    let count = |name: &str| json(&place, name)["features"].as_array().expect("features").len();
+    assert_eq!(count("c.geojson"), 3);
+    let output = place.run("voronoi a.wkt --of areas --box 0,0,5,2 -o c.geojson");
+    assert!(
+        text(&output.stderr).contains("lines are left out: they are no areas"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(count("c.geojson"), 1);
+}
+
+#[test]
+fn areas_that_overlap_are_refused() {
+    let place = Place::new();
+    let square =
+        |x: f64, size: f64| format!("POLYGON (({x} 0, {0} 0, {0} {size}, {x} {size}, {x} 0))\n", x + size);
+    for (other, expected) in [
+        (square(1.0, 2.0), "share a side"),
+        (square(0.5, 0.25), "share a side"),
+        (square(0.5, 2.0), "cross near"),
+        ("POLYGON ((0.2 0.2, 0.4 0.2, 0.4 0.4, 0.2 0.2))\n".to_owned(), "areas 0 and 1 overlap"),
+    ] {
+        place.file("a.wkt", square(0.0, 1.0) + &other);
+        let output = place.run("voronoi a.wkt --of areas -o c.geojson");
+        let told = text(&output.stderr);
+        assert!(output.status.code() == Some(1) && told.contains(expected), "{told}");
+        place.succeed("voronoi a.wkt --of lines --tolerance 0.05 -o c.geojson");
+    }
+    // In a hole there is room.
+    place.file("a.wkt", "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 3 1, 3 3, 1 3, 1 1))\nPOLYGON ((1.8 1.8, 2.2 1.8, 2.2 2.2, 1.8 2.2, 1.8 1.8))\n");
+    place.succeed("voronoi a.wkt --of areas --tolerance 0.001 -o c.geojson");
+    let inner = json(&place, "c.geojson")["features"][1]["properties"]["area"].as_f64().expect("an area");
+    // A square of 1.2 with corners that parabolas cut.
+    assert!((1.35..1.4).contains(&inner), "{inner}");
+}
+
+#[test]
+fn what_is_for_points_is_refused() {
+    let place = Place::new();
+    place.file("roads.geojson", ROADS);
+    for more in ["--order 2", "--relax 3", "--merge auto", "--dim 3", "--areas equal"] {
+        let output = place.run(&format!("voronoi roads.geojson --of lines {more} -o c.geojson"));
+        assert_eq!(output.status.code(), Some(2), "{more}: {}", text(&output.stderr));
+    }
+    let output = place.run("voronoi roads.geojson --of lines --tolerance -1 -o c.geojson");
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    place.file("points.csv", "x,y\n0,0\n1,1\n");
+    let output = place.run("voronoi points.csv --of lines -o c.geojson");
+    assert!(output.status.code() == Some(1) && text(&output.stderr).contains("there is no line in it"));
+}

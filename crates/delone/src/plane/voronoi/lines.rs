@@ -1,0 +1,287 @@
+//! Voronoi cells of lines: each place belongs to the nearest line.
+//!
+//! The lines get sites along them, and the cells of the sites of a line are joined. A piece between two sites is divided
+//!
+//! - as long as another site is in the circle on it: without any the piece is in the cells of its ends, and no border crosses it;
+//! - as long as one of its ends is the site of another line;
+//! - as long as a border beside it is farther than half of the tolerance from where both lines are equally far away. This is measured at both
+//!   ends and in the middle of each side of the border, by the distances from the pieces themselves.
+//!
+//! A piece of length h is nearer than its ends by at most h^2 / 8d at the distance d, and the border moves by at most h^2 / 8g, where g is the
+//! distance between the nearest places of both lines. So pieces are about sqrt(8 g t) long for a tolerance t, whatever the distance is.
+//! Where lines meet g goes to 0; there pieces are divided until they are at most half as long as the tolerance.
+//!
+//! It ends, because pieces are halved and have a least length. It is canonical: a function of the set of points and of each line.
+//!
+//! Cost: a triangulation of all sites in each round, O(log(length / tolerance)) rounds; the last few have most of the sites.
+
+use delone_predicates::{angle, lexicographic};
+
+use super::VoronoiEdge2;
+use super::cells::Cells2;
+use crate::error::Error;
+use crate::ids::{MAX_POINTS, VertexId};
+use crate::plane::constrained::{Constrained2, Crossings, SegmentId};
+use crate::plane::delaunay::Delaunay2;
+use crate::plane::region::Region2;
+use crate::points::Position2;
+
+/// A piece is not divided that is shorter than this part of the tolerance.
+const LEAST_PIECE: f64 = 0.5;
+
+/// Pieces are divided beside a border that is off by more than this part of the tolerance: between the three places where that is measured,
+/// and by terms of second order, it may be off by more.
+const MEASURED_PART: f64 = 0.5;
+
+/// The clipped Voronoi cells of lines.
+///
+/// ```
+/// use delone::{LineCells2, Region2, VertexId};
+///
+/// // A wall, and a point-like pillar beside it: the border is a parabola.
+/// let points = [[0.0, 0.0], [8.0, 0.0], [4.0, 2.0], [4.0, 2.001]];
+/// let region = Region2::rectangle([0.0, 0.0], [8.0, 4.0])?;
+/// let made = LineCells2::new(&points, &[[0, 1], [2, 3]], &[0, 1], &region, 0.001)?;
+/// let area = made.cells.area(VertexId::new(1));
+/// assert!((area - 8.0 * 3.0_f64.sqrt()).abs() < 0.02);
+/// assert!(made.deviation <= 0.001);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[doc(alias("segment Voronoi diagram", "medial axis", "Thiessen polygons of lines"))]
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct LineCells2 {
+    /// The cells, by the number of the line.
+    pub cells: Cells2,
+    /// The sites along the lines.
+    pub sites: Vec<[f64; 2]>,
+    /// The line of each site: of several the one of the least number.
+    pub lines: Vec<usize>,
+    /// How often all sites were triangulated.
+    pub rounds: usize,
+    /// The largest distance of a border from where both lines are equally far away, as measured beside pieces that could be divided.
+    /// Rounded, in coordinate units.
+    pub deviation: f64,
+    /// Pieces of lines that several lines share: they belong to the one of the least number.
+    pub shared: usize,
+}
+
+impl LineCells2 {
+    /// The cells of lines in a region. Segments are between points by index; `lines` has the line of each. Lines may cross, touch and overlap.
+    /// The tolerance is a length in coordinate units, more than 0.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a tolerance that is not positive and finite, and for fewer lines than segments;
+    /// [`Error::TooManyPoints`] if so many sites would be needed that there are not enough indices; and those of
+    /// [`Constrained2::with_crossings`].
+    pub fn new<P: Position2>(
+        points: &[P],
+        segments: &[[usize; 2]],
+        lines: &[usize],
+        region: &Region2,
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        let refused = |name, value, range| Err(Error::Parameter { name, value, range });
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return refused("tolerance", tolerance, "positive and finite");
+        }
+        if lines.len() != segments.len() {
+            return refused("lines", lines.len() as f64, "one for each segment");
+        }
+        let c = Constrained2::with_crossings(points, segments, Crossings::Split)?;
+        let mut made = Self::default();
+        let mut pieces = made.pieces(&c, |segment| lines[segment.index()]);
+        loop {
+            made.rounds += 1;
+            let d = Delaunay2::from_points(&made.sites)?;
+            let round = Round { made: &made, pieces: &pieces, d: &d, region, tolerance };
+            let (marked, deviation) = round.run();
+            made.deviation = deviation;
+            if marked.is_empty() {
+                let groups = lines.iter().max().map_or(0, |last| last + 1);
+                let cells = d.voronoi().clip(region);
+                made.cells = cells.joined(|site| made.lines.get(site.index()).copied(), groups);
+                return Ok(made);
+            }
+            made.divide(&mut pieces, marked)?;
+        }
+    }
+
+    /// The pieces that lines have at first: constraints between vertices.
+    fn pieces(&mut self, c: &Constrained2, line: impl Fn(SegmentId) -> usize) -> Vec<Piece> {
+        let mut sites: Vec<Option<usize>> = vec![None; c.points().len()];
+        let mut pieces = Vec::new();
+        for (e, [v, w]) in c.constraint_edges().zip(c.constraints()) {
+            let mut of: Vec<usize> =
+                c.covering(e).into_iter().map(|covering| line(covering.segment)).collect();
+            of.sort_unstable();
+            of.dedup();
+            let Some(&first) = of.first() else { continue };
+            self.shared += usize::from(of.len() > 1);
+            let ends = if lexicographic(c.point(v), c.point(w)).is_lt() { [v, w] } else { [w, v] };
+            let ends = ends.map(|v| {
+                let site = *sites[v.index()].get_or_insert_with(|| {
+                    self.sites.push(c.point(v));
+                    self.lines.push(first);
+                    self.sites.len() - 1
+                });
+                self.lines[site] = self.lines[site].min(first);
+                site
+            });
+            pieces.push(Piece { ends, line: first });
+        }
+        pieces
+    }
+
+    /// Halves pieces.
+    fn divide(&mut self, pieces: &mut Vec<Piece>, marked: Vec<usize>) -> Result<(), Error> {
+        if self.sites.len() + marked.len() > MAX_POINTS {
+            return Err(Error::TooManyPoints { count: self.sites.len() + marked.len(), most: MAX_POINTS });
+        }
+        for piece in marked {
+            let Piece { ends: [v, w], line } = pieces[piece];
+            let [a, b] = [v, w].map(|site| self.sites[site]);
+            let middle = self.sites.len();
+            self.sites.push([0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]));
+            self.lines.push(line);
+            pieces[piece].ends = [v, middle];
+            pieces.push(Piece { ends: [middle, w], line });
+        }
+        Ok(())
+    }
+}
+
+/// A piece of a line between two sites.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    ends: [usize; 2],
+    line: usize,
+}
+
+/// The look at one triangulation.
+struct Round<'a> {
+    made: &'a LineCells2,
+    pieces: &'a [Piece],
+    d: &'a Delaunay2,
+    region: &'a Region2,
+    tolerance: f64,
+}
+
+impl Round<'_> {
+    /// The pieces that must be divided, and the largest deviation of a border.
+    fn run(&self) -> (Vec<usize>, f64) {
+        let mut at_sites: Vec<Vec<usize>> = vec![Vec::new(); self.made.sites.len()];
+        for (number, piece) in self.pieces.iter().enumerate() {
+            piece.ends.into_iter().for_each(|site| at_sites[site].push(number));
+        }
+        let mut marked: Vec<usize> = (0..self.pieces.len()).filter(|&piece| self.is_crossed(piece)).collect();
+        let mut deviation: f64 = 0.0;
+        let mesh = self.d.mesh();
+        for e in mesh.undirected_edges() {
+            let sites = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
+            let [one, other] = sites.map(|site| self.made.lines[site]);
+            if one == other || !self.d.voronoi().has_length(e) {
+                continue;
+            }
+            let Some([p, q]) = self.within(self.d.voronoi().edge(e)) else { continue };
+            let middle = [0, 1].map(|k| 0.5 * p[k] + 0.5 * q[k]);
+            for at in [p, middle, q] {
+                let near = sites.map(|site| self.nearest(at, site, &at_sites[site]));
+                let Some(off) = deviation_at(at, near.map(|near| near.0)) else { continue };
+                let divided: Vec<usize> = near
+                    .iter()
+                    .filter_map(|near| near.1)
+                    .filter(|&piece| self.may_be_divided(piece))
+                    .collect();
+                if !divided.is_empty() {
+                    deviation = deviation.max(off);
+                }
+                if off > MEASURED_PART * self.tolerance {
+                    marked.extend(divided);
+                }
+            }
+        }
+        marked.sort_unstable();
+        marked.dedup();
+        (marked, deviation)
+    }
+
+    fn length(&self, piece: usize) -> f64 {
+        let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    }
+
+    fn may_be_divided(&self, piece: usize) -> bool {
+        let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
+        let middle = [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
+        middle != a && middle != b && self.length(piece) > LEAST_PIECE * self.tolerance
+    }
+
+    /// Whether a site is in the circle on a piece, or the piece is no edge, or an end is the site of another line, and it can be divided.
+    fn is_crossed(&self, piece: usize) -> bool {
+        let Piece { ends, line } = self.pieces[piece];
+        let is_own = ends.iter().all(|&site| self.made.lines[site] == line);
+        let [v, w] = ends.map(VertexId::new);
+        let mesh = self.d.mesh();
+        let [a, b] = ends.map(|site| self.made.sites[site]);
+        let is_in_circle =
+            |site: VertexId| !site.is_ghost() && angle(self.made.sites[site.index()], a, b).is_negative();
+        let is_clear = match mesh.star(v).find(|&e| mesh.destination(e) == w) {
+            Some(e) => !is_in_circle(mesh.apex(e)) && !is_in_circle(mesh.apex(mesh.twin(e))),
+            None => false,
+        };
+        !(is_own && is_clear) && self.may_be_divided(piece)
+    }
+
+    /// The nearest place to a point on the pieces at a site, and the piece, unless it is the site.
+    fn nearest(&self, at: [f64; 2], site: usize, pieces: &[usize]) -> ([f64; 2], Option<usize>) {
+        let own = self.made.sites[site];
+        let square = |p: [f64; 2]| (p[0] - at[0]) * (p[0] - at[0]) + (p[1] - at[1]) * (p[1] - at[1]);
+        let mut best = (own, None);
+        for &piece in pieces.iter().filter(|&&piece| self.pieces[piece].line == self.made.lines[site]) {
+            let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
+            let (u, w) = ([b[0] - a[0], b[1] - a[1]], [at[0] - a[0], at[1] - a[1]]);
+            let part = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
+            let place = [a[0] + part * u[0], a[1] + part * u[1]];
+            if (0.0..=1.0).contains(&part) && square(place) < square(best.0) {
+                best = (place, Some(piece));
+            }
+        }
+        best
+    }
+
+    /// The part of an edge of the diagram that is in the box around the region.
+    fn within(&self, edge: VoronoiEdge2) -> Option<[[f64; 2]; 2]> {
+        let (from, way, [mut low, mut high]) = match edge {
+            VoronoiEdge2::Segment([p, q]) => (p, [q[0] - p[0], q[1] - p[1]], [0.0, 1.0]),
+            VoronoiEdge2::Ray { from, direction } => (from, direction, [0.0, f64::INFINITY]),
+            VoronoiEdge2::Line { through, direction } => {
+                (through, direction, [f64::NEG_INFINITY, f64::INFINITY])
+            }
+        };
+        let bounds = self.region.bounds();
+        for k in 0..2 {
+            let [near, far] = bounds.map(|corner| (corner[k] - from[k]) / way[k]);
+            if way[k] == 0.0 {
+                if from[k] < bounds[0][k] || from[k] > bounds[1][k] {
+                    return None;
+                }
+            } else {
+                low = low.max(near.min(far));
+                high = high.min(near.max(far));
+            }
+        }
+        let place = |t: f64| [from[0] + t * way[0], from[1] + t * way[1]];
+        (low <= high && low.is_finite() && high.is_finite()).then(|| [place(low), place(high)])
+    }
+}
+
+/// How far a place is from where two others are equally far away, to first order. Nothing if these are one place.
+fn deviation_at(at: [f64; 2], near: [[f64; 2]; 2]) -> Option<f64> {
+    let ways = near.map(|p| [p[0] - at[0], p[1] - at[1]]);
+    let lengths = ways.map(|way| way[0].hypot(way[1]));
+    let units = [0, 1].map(|i| ways[i].map(|x| x / lengths[i]));
+    let steepness = (units[0][0] - units[1][0]).hypot(units[0][1] - units[1][1]);
+    let off = (lengths[0] - lengths[1]).abs() / steepness;
+    (!off.is_nan()).then_some(off)
+}

@@ -1,0 +1,152 @@
+//! Voronoi cells of lines: against distances from all segments.
+
+use delone::{Constrained2, Error, LineCells2, Region2, VertexId};
+use delone_generators::Random;
+
+type Lines = (Vec<[f64; 2]>, Vec<[usize; 2]>, Vec<usize>);
+
+/// Chains that cross, one of which begins at a corner of another.
+fn chains(seed: u64, count: usize) -> Lines {
+    let mut random = Random::new(seed);
+    let (mut points, mut segments, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+    for line in 0..count {
+        let mut p = [random.unit(), random.unit()];
+        if line == 1 {
+            p = points[1];
+        }
+        points.push(p);
+        for _ in 0..1 + (line % 4) {
+            p = p.map(|x: f64| x + 0.3 * (random.unit() - 0.5));
+            points.push(p);
+            segments.push([points.len() - 2, points.len() - 1]);
+            lines.push(line);
+        }
+    }
+    (points, segments, lines)
+}
+
+fn distance(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
+    let part = ((u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
+    (q[0] - a[0] - part * u[0]).hypot(q[1] - a[1] - part * u[1])
+}
+
+fn region() -> Region2 {
+    Region2::rectangle([-0.5, -0.5], [1.5, 1.5]).expect("a box")
+}
+
+fn is_in(made: &LineCells2, line: usize, [x, y]: [f64; 2]) -> bool {
+    let sides = made.cells.rings(VertexId::new(line)).flat_map(|ring| ring.sides());
+    let crossed = sides
+        .filter(|[p, q]| (p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]));
+    crossed.count() % 2 == 1
+}
+
+#[test]
+fn places_belong_to_the_nearest_line_within_the_tolerance() {
+    let mut off = 0;
+    for seed in 0..12 {
+        let count = 2 + seed as usize;
+        let (points, segments, lines) = chains(seed, count);
+        for tolerance in [0.1, 0.003] {
+            let made = LineCells2::new(&points, &segments, &lines, &region(), tolerance).expect("cells");
+            let areas: f64 = (0..count).map(|line| made.cells.area(VertexId::new(line))).sum();
+            assert!((areas - 4.0).abs() < 1e-12, "{areas}");
+            assert!(made.deviation <= tolerance);
+            let mut random = Random::new(seed + 100);
+            for _ in 0..400 {
+                let q = [0, 1].map(|_| 2.0 * random.unit() - 0.5);
+                let from = |line: usize| {
+                    let own = segments.iter().zip(&lines).filter(|one| *one.1 == line);
+                    own.map(|(ends, _)| distance(q, ends.map(|i| points[i]))).fold(f64::INFINITY, f64::min)
+                };
+                let distances: Vec<f64> = (0..count).map(from).collect();
+                let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+                let owners: Vec<usize> = (0..count).filter(|&line| is_in(&made, line, q)).collect();
+                assert_eq!(owners.len(), 1, "{q:?}");
+                // Where a border is off by the tolerance, distances differ by at most twice as much.
+                let more = distances[owners[0]] - least;
+                assert!(more <= 2.0 * tolerance, "{more} at {q:?}, {seed}");
+                off += usize::from(more > 0.0);
+            }
+        }
+    }
+    assert!(off > 0);
+}
+
+#[test]
+fn cells_are_a_function_of_the_lines() {
+    let (points, segments, lines) = chains(5, 6);
+    let made = LineCells2::new(&points, &segments, &lines, &region(), 0.01).expect("cells");
+    let areas =
+        |made: &LineCells2| (0..6).map(|line| made.cells.area(VertexId::new(line))).collect::<Vec<_>>();
+    // Segments in another order and direction.
+    let turned: Vec<[usize; 2]> = segments.iter().rev().map(|&[v, w]| [w, v]).collect();
+    let back: Vec<usize> = lines.iter().rev().copied().collect();
+    let other = LineCells2::new(&points, &turned, &back, &region(), 0.01).expect("cells");
+    assert_eq!(made.sites.len(), other.sites.len());
+    let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(close(&areas(&made), &areas(&other)));
+    // Powers of two.
+    for power in [-300, 40, 300] {
+        let by = 2.0_f64.powi(power);
+        let scaled: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x * by)).collect();
+        let box_of = Region2::rectangle([-0.5 * by; 2], [1.5 * by; 2]).expect("a box");
+        let other = LineCells2::new(&scaled, &segments, &lines, &box_of, 0.01 * by).expect("cells");
+        assert_eq!((made.rounds, made.sites.len()), (other.rounds, other.sites.len()));
+        assert!(made.sites.iter().zip(&other.sites).all(|(p, q)| p.map(|x| x * by) == *q));
+        assert_eq!(made.deviation * by, other.deviation);
+    }
+}
+
+/// Pieces that several lines share are the first one's, and crossings are no error.
+#[test]
+fn lines_may_overlap_and_cross() {
+    let points = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, -0.4]];
+    let segments = [[0, 1], [2, 1], [1, 3], [4, 5]];
+    let made = LineCells2::new(&points, &segments, &[0, 1, 1, 2], &region(), 0.01).expect("cells");
+    assert!(made.shared > 0);
+    assert!((0..3).all(|line| made.cells.area(VertexId::new(line)) > 0.0));
+    let none = LineCells2::new::<[f64; 2]>(&[], &[], &[], &region(), 0.01).expect("no cell");
+    assert_eq!((none.sites.len(), none.rounds), (0, 1));
+    let point = LineCells2::new(&[[0.0, 0.0]], &[[0, 0]], &[0], &region(), 0.01).expect("no length");
+    assert_eq!(point.sites.len(), 0);
+}
+
+/// All ends of the second line are those of others.
+#[test]
+fn a_line_between_corners_of_others_has_its_cell() {
+    let points = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
+    let made =
+        LineCells2::new(&points, &[[0, 1], [2, 3], [0, 2]], &[0, 1, 2], &region(), 1e-3).expect("cells");
+    let areas = [0, 1, 2].map(|line| made.cells.area(VertexId::new(line)));
+    // Each is bounded by bisectors of right angles, and the box.
+    assert!(
+        areas.into_iter().zip([1.5, 1.5, 1.0]).all(|(found, area)| (found - area).abs() < 0.3),
+        "{areas:?}"
+    );
+    assert!((areas[0] - areas[1]).abs() < 1e-2 && areas[2] > 0.7, "{areas:?}");
+}
+
+#[test]
+fn what_is_no_tolerance_is_refused() {
+    let points = [[0.0, 0.0], [1.0, 0.0]];
+    for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = LineCells2::new(&points, &[[0, 1]], &[0], &region(), tolerance);
+        assert!(matches!(refused, Err(Error::Parameter { name: "tolerance", .. })));
+    }
+    let refused = LineCells2::new(&points, &[[0, 1]], &[], &region(), 0.1);
+    assert!(matches!(refused, Err(Error::Parameter { name: "lines", .. })));
+}
+
+/// The cell of a ring is a polygon with a hole, and that of what is inside of it is the hole.
+#[test]
+fn a_cell_around_another_has_a_hole() {
+    let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.4, 0.5], [0.6, 0.5]];
+    let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]];
+    let made = LineCells2::new(&points, &segments, &[0, 0, 0, 0, 1], &region(), 1e-3).expect("cells");
+    let rings: Vec<f64> = made.cells.rings(VertexId::new(0)).map(|ring| ring.area()).collect();
+    assert_eq!(rings.len(), 2);
+    assert!(rings.iter().any(|&area| area < 0.0) && rings.iter().any(|&area| area == 4.0));
+    assert!(Constrained2::from_parts(&points, &segments).is_ok());
+}
