@@ -3,7 +3,7 @@
 //! A k-d tree of vertices is searched with a segment. What lies in the box of the segment and surely on one side of its line, by
 //! more than roundings go, is passed by: a point, or all points of a node. Exact tests decide about the rest.
 //!
-//! Cost: O(n log n) to build, 20 bytes a point and 4 a box; O(sqrt(n)) boxes and the points near a segment, on evenly spread points.
+//! Cost: O(n log n) to build, up to 40 bytes a point; O(sqrt(n)) boxes and the points near a segment, on evenly spread points.
 
 use crate::ids::VertexId;
 use crate::powers::power_below;
