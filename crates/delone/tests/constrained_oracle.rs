@@ -92,6 +92,50 @@ fn crossings_are_those_of_all_pairs_and_splits_those_of_the_judge() {
     }
 }
 
+/// A segment of a family: on others, through one point, of a lattice, nearly parallel, between thirds.
+fn nasty(family: usize, random: &mut Random) -> [[f64; 2]; 2] {
+    let (last, third) = (2f64.powi(-50), 1.0 / 3.0);
+    let mut below = |n: usize| random.below(n) as f64;
+    match family {
+        0 => {
+            let (slope, from, to) = (below(3), below(20), below(20));
+            [[from, slope * from], [to, slope * to]]
+        }
+        1 => {
+            let d = [0; 2].map(|_| below(1000) / 999.0 - 0.5);
+            [[third - d[0], 0.7 - d[1]], [third + d[0], 0.7 + d[1]]]
+        }
+        2 => {
+            let at = below(12) + 0.1;
+            if below(2) > 0.0 { [[at, -1.0], [at, 13.0]] } else { [[-1.0, at], [13.0, at]] }
+        }
+        3 => [[1.0 + below(8) * last, 1.0 + below(8) * last], [2.0 + below(8) * last, 1.5 + below(8) * last]],
+        _ => [0; 2].map(|_| [0; 2].map(|_| below(12) * third)),
+    }
+}
+
+#[test]
+fn splits_of_nasty_segments_are_those_of_the_judge() {
+    let mut random = Random::new(6);
+    let scales = [1.0, 2f64.powi(500), 2f64.powi(-500), 1e200, 1e-200];
+    let mut crossing_count = 0;
+    for round in 0..200 {
+        let (family, scale) = (round % 5, scales[round / 5 % 5]);
+        let mut points: Points = (0..2 + random.below(14)).flat_map(|_| nasty(family, &mut random)).collect();
+        points.iter_mut().flatten().for_each(|x| *x *= scale);
+        let segments: Segments = (0..points.len() / 2).map(|i| [2 * i, 2 * i + 1]).collect();
+        let c = Constrained2::with_crossings(&points, &segments, Crossings::Split).expect("it ends");
+        c.check().expect("canonical");
+        let judge = crossings::Split::new(&points, &segments);
+        assert_eq!(c.points(), &judge.points[..], "{points:?}");
+        let edges: BTreeSet<[usize; 2]> = c.constraints().map(|ends| ends.map(|v| v.index())).collect();
+        assert_eq!(edges, judge.edges().into_iter().collect(), "{points:?}");
+        assert_eq!((c.report().crossings, c.report().rounds), (judge.crossings, judge.rounds), "{points:?}");
+        crossing_count += judge.crossings;
+    }
+    assert!(crossing_count > 3000, "{crossing_count}");
+}
+
 /// The definition of what is inside: what a ray crosses.
 #[test]
 fn what_is_inside_is_what_rays_say() {

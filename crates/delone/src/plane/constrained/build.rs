@@ -123,9 +123,8 @@ impl Constrained2 {
             if crossings == Crossings::Refuse {
                 return Err(refusal(&graph, &ends, &refused));
             }
-            let split = split::resolve(graph.points().to_vec(), &ends);
-            (bent, report) = (split.bent, split.counts);
-            (graph, _, _) = constrained(split.points, &indices(&split.pieces), &mut report);
+            let split = split::resolve(graph, &ends, refused);
+            (graph, bent, report) = (split.graph, split.bent, split.report);
         }
         Ok(Self::of(graph, Segments::new(ends, bent), report))
     }
@@ -399,7 +398,8 @@ fn refusal(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32]) -> Er
         keys(a).partial_cmp(&keys(b)).expect("finite").then((a.first, a.second).cmp(&(b.first, b.second)))
     };
     let first = found.iter().min_by(less).expect("one was found");
-    let near = crossings::place(graph, segments[first.first as usize], segments[first.second as usize]);
+    let [one, other] = [first.first, first.second].map(|s| segments[s as usize].map(point));
+    let near = crossings::place(one, other);
     Error::SegmentsCross {
         first: first.first as usize,
         second: first.second as usize,

@@ -263,7 +263,8 @@ impl Constrained2 {
         crossed.dedup_by_key(|(segment, _)| *segment);
         let (first, e) = crossed[0];
         let edge = [self.mesh().origin(e), self.mesh().destination(e)];
-        let near = crossings::place(&self.graph, ends, edge);
+        let point = |v: VertexId| self.graph.point(v);
+        let near = crossings::place(ends.map(point), edge.map(point));
         Error::SegmentsCross { first: first.index(), second: s.index(), near, count: crossed.len() }
     }
 

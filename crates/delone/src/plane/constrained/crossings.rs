@@ -10,7 +10,7 @@
 use delone_predicates::{Line, Spot, orient2d};
 
 use super::overlaps::sorted;
-use super::passes::{self, Passes};
+use super::passes::Passes;
 use super::trace::Ground;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::plane::Delaunay2;
@@ -45,7 +45,8 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
     let mesh = graph.mesh();
     let ground = Ground { mesh, points: &graph.base.points };
     let mut met = Met::default();
-    let Passes { passes, crossed } = Passes::of(graph, segments, refused);
+    let passes = Passes::of(graph, segments, refused);
+    let crossed = &passes.crossed;
     let places = |s: u32| segments[s as usize].map(|v| mesh.place(v).expect("a vertex"));
     let undirected = |e: EdgeId| e.min(mesh.twin(e));
     for &s in refused {
@@ -73,9 +74,11 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
     }
     met.through.sort_unstable();
     let mut crossings = Vec::new();
-    passes::each_pair(&passes, |first, second| {
-        let crossing = Crossing { first, second };
-        if cross(graph, segments[first as usize], segments[second as usize]) && !met.have_vertex(crossing) {
+    let points: Vec<Segment> =
+        refused.iter().map(|&s| segments[s as usize].map(|v| graph.point(v))).collect();
+    passes.each_pair(|i, j| {
+        let crossing = Crossing { first: refused[i], second: refused[j] };
+        if cross(points[i], points[j]) && !met.have_vertex(crossing) {
             crossings.push(crossing);
         }
     });
@@ -85,22 +88,18 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
     met
 }
 
+/// The points at both ends of a segment.
+pub(super) type Segment = [[f64; 2]; 2];
+
 /// Whether two segments cross strictly inside of both.
-fn cross(graph: &Delaunay2, first: [VertexId; 2], second: [VertexId; 2]) -> bool {
-    let [a, b] = first.map(|v| graph.point(v));
-    let [c, d] = second.map(|v| graph.point(v));
+fn cross([a, b]: Segment, [c, d]: Segment) -> bool {
     let are_apart = |p, q, r, s| (orient2d(p, q, r) * orient2d(p, q, s)).is_negative();
     are_apart(a, b, c, d) && are_apart(c, d, a, b)
 }
 
-/// A segment as a line, from its lesser end.
-pub(super) fn line(graph: &Delaunay2, [v, w]: [VertexId; 2]) -> Line {
-    Line::Through(graph.point(v), graph.point(w))
-}
-
-/// Where two segments cross, rounded once.
-pub(super) fn place(graph: &Delaunay2, first: [VertexId; 2], second: [VertexId; 2]) -> [f64; 2] {
-    let meeting = Spot::Meeting(line(graph, first), line(graph, second));
+/// Where two segments that cross do so, rounded once.
+pub(super) fn place([a, b]: Segment, [c, d]: Segment) -> [f64; 2] {
+    let meeting = Spot::Meeting(Line::Through(a, b), Line::Through(c, d));
     meeting.rounded().expect("between the ends of both")
 }
 

@@ -8,7 +8,7 @@
 //! chain of constraints does not depend on what is outside.
 //!
 //! `trace` follows a segment from both ends, `force` makes it an edge, `patch` triangulates large sides of a crossed channel. `build`
-//! inserts many segments in Morton order, and `overlaps` skips shared parts. `passes`, `crossings`, `band` and `split` serve segments
+//! inserts many segments in Morton order, and `overlaps` skips shared parts. `passes`, `crossings`, `cells` and `split` serve segments
 //! that cross. `segments` tells which segments cover an edge. `domains` tells inside from outside; `visibility` answers lines of sight.
 //!
 //! Sources: Lee & Lin, "Generalized Delaunay triangulation for planar graphs", DCG 1986; Chew, "Constrained Delaunay
@@ -19,9 +19,9 @@
 //! fixed edges: names, places, layouts of memory, hints and removal are the same code, and only insertion and walks look for
 //! fixed edges, where there are any.
 
-mod band;
 mod build;
 mod carried;
+mod cells;
 mod change;
 mod check;
 mod crossings;

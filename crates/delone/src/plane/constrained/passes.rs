@@ -9,21 +9,23 @@ use crate::plane::Delaunay2;
 
 /// No edge of a triangle.
 const NO_EDGE: u8 = 3;
+/// No number of a triangle or of a segment.
+const NO_NUMBER: u32 = u32::MAX;
 
-/// A segment in a triangle. Ordered by that, so that those that cross the same two of its edges follow each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Pass {
-    triangle: TriangleId,
+/// A segment in a triangle, both by their numbers among those that pass and are passed.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    triangle: u32,
+    segment: u32,
     /// The edge that it does not cross, if it crosses the others.
     not_crossed: u8,
-    segment: u32,
     /// The edge that it comes in by, if it does not begin at a corner.
     entry: u8,
 }
 
 impl Pass {
-    fn beginning(triangle: TriangleId, segment: u32) -> Self {
-        Self { triangle, not_crossed: NO_EDGE, segment, entry: NO_EDGE }
+    fn beginning(triangle: u32, segment: u32) -> Self {
+        Self { triangle, segment, not_crossed: NO_EDGE, entry: NO_EDGE }
     }
 
     /// Leaves by an edge.
@@ -32,28 +34,23 @@ impl Pass {
             self.not_crossed = 3 - self.entry - by.corner() as u8;
         }
     }
-}
 
-/// Calls for each two segments that may cross, once or a few times: two that come into a triangle by the same edge are together in
-/// the one before.
-pub(super) fn each_pair(passes: &[Pass], mut each: impl FnMut(u32, u32)) {
-    for at_one in passes.chunk_by(|p, q| p.triangle == q.triangle) {
-        for others in at_one.chunk_by(|p, q| p.not_crossed == q.not_crossed) {
-            let k = others[0].not_crossed;
-            for p in at_one.iter().filter(|p| p.entry == NO_EDGE || k == NO_EDGE || p.entry == k) {
-                let start = others.partition_point(|q| q.segment <= p.segment);
-                others[start..].iter().for_each(|q| each(p.segment, q.segment));
-            }
-        }
+    /// The group of segments that cross the same edges of the triangle.
+    fn group(&self) -> usize {
+        4 * self.triangle as usize + usize::from(self.not_crossed)
     }
 }
 
 /// All that some segments pass.
 #[derive(Debug, Default)]
 pub(super) struct Passes {
-    /// In their order.
-    pub(super) passes: Vec<Pass>,
-    /// Constraints, each by the lesser of its two edges, and a segment that crosses them.
+    /// Segment by segment.
+    all: Vec<Pass>,
+    /// Where each group begins among the segments of all groups, and where the last ends.
+    starts: Vec<usize>,
+    /// The segments of each group, in increasing order.
+    grouped: Vec<u32>,
+    /// Constraints, each by the lesser of its two edges, and the index of a segment that crosses them.
     pub(super) crossed: Vec<(EdgeId, u32)>,
 }
 
@@ -61,32 +58,74 @@ impl Passes {
     pub(super) fn of(graph: &Delaunay2, segments: &[[VertexId; 2]], some: &[u32]) -> Self {
         let mesh = graph.mesh();
         let ground = Ground { mesh, points: &graph.base.points };
-        let Self { mut passes, mut crossed } = Self::default();
-        for &s in some {
+        let (mut passes, mut crossed) = (Vec::new(), Vec::new());
+        let (mut numbers, mut count) = (vec![NO_NUMBER; mesh.slot_count()], 0);
+        let mut number = |t: TriangleId| {
+            let number = &mut numbers[t.index()];
+            if *number == NO_NUMBER {
+                *number = count;
+                count += 1;
+            }
+            *number
+        };
+        for (segment, &s) in (0..).zip(some) {
             let mut along = Vec::new();
             let first = passes.len();
             ground.follow(
                 segments[s as usize].map(|v| mesh.place(v).expect("a vertex")),
                 |e, _| along.extend([e, mesh.twin(e)]),
                 |e| {
-                    if passes[first..].last().is_none_or(|pass| pass.triangle != e.triangle()) {
-                        passes.push(Pass::beginning(e.triangle(), s));
+                    let left = number(e.triangle());
+                    if passes[first..].last().is_none_or(|pass: &Pass| pass.triangle != left) {
+                        passes.push(Pass::beginning(left, segment));
                     }
                     let entered = mesh.twin(e);
                     passes.last_mut().expect("where it comes from").leave(e);
                     let entry = entered.corner() as u8;
-                    passes.push(Pass { entry, ..Pass::beginning(entered.triangle(), s) });
+                    passes.push(Pass { entry, ..Pass::beginning(number(entered.triangle()), segment) });
                     if mesh.is_fixed(e) {
                         crossed.push((e.min(entered), s));
                     }
                     true
                 },
             );
-            passes.extend(along.into_iter().map(|e| Pass::beginning(e.triangle(), s)));
+            passes.extend(along.into_iter().map(|e| Pass::beginning(number(e.triangle()), segment)));
         }
-        passes.sort_unstable();
         crossed.sort_unstable();
-        Self { passes, crossed }
+        let mut starts = vec![0; 4 * count as usize + 1];
+        passes.iter().for_each(|pass| starts[pass.group()] += 1);
+        let mut sum = 0;
+        for start in &mut starts {
+            sum += *start;
+            *start = sum;
+        }
+        let mut grouped = vec![0; passes.len()];
+        for pass in passes.iter().rev() {
+            let at = &mut starts[pass.group()];
+            *at -= 1;
+            grouped[*at] = pass.segment;
+        }
+        Self { all: passes, starts, grouped, crossed }
+    }
+
+    /// Calls for each two segments that may cross, once, with their places among those that pass, in increasing order of the first. Two
+    /// that come into a triangle by the same edge are together in the one before.
+    pub(super) fn each_pair(&self, mut each: impl FnMut(usize, usize)) {
+        let segment_count = self.all.last().map_or(0, |pass| pass.segment as usize + 1);
+        let mut last_seen_for = vec![NO_NUMBER; segment_count];
+        for pass in &self.all {
+            let is_from_a_corner = pass.entry == NO_EDGE;
+            for k in (0..=NO_EDGE).filter(|&k| is_from_a_corner || k == NO_EDGE || k == pass.entry) {
+                let group = Pass { not_crossed: k, ..*pass }.group();
+                let others = self.grouped[self.starts[group]..self.starts[group + 1]].iter().rev();
+                for &other in others.take_while(|&&other| other > pass.segment) {
+                    let last = std::mem::replace(&mut last_seen_for[other as usize], pass.segment);
+                    if last != pass.segment {
+                        each(pass.segment as usize, other as usize);
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -105,10 +144,10 @@ mod tests {
         let points: Vec<[f64; 2]> = (0..count).flat_map(|i| [end(i, 1.0), end(i, -1.0)]).collect();
         let segments: Vec<[usize; 2]> = (0..count as usize).map(|i| [2 * i, 2 * i + 1]).collect();
         let (graph, ends, refused) = constrained(points, &segments, &mut ConstraintReport2::default());
-        let Passes { passes, .. } = Passes::of(&graph, &ends, &refused);
+        let passes = Passes::of(&graph, &ends, &refused);
         let mut looks = 0;
-        each_pair(&passes, |_, _| looks += 1);
-        assert!(looks < 3 * refused.len().pow(2), "{looks} for {}", refused.len());
+        passes.each_pair(|_, _| looks += 1);
+        assert!(looks < refused.len().pow(2), "{looks} for {}", refused.len());
         assert_eq!(meet(&graph, &ends, &refused).crossings.len(), segments.len() * (segments.len() - 1) / 2);
     }
 }

@@ -21,30 +21,28 @@
 //! Sources: Hobby, "Practical segment intersection with finite precision output", CGTA 1999; Guibas & Marimont, "Rounding
 //! arrangements dynamically", IJCGA 1998.
 //!
-//! Cost: a round follows every edge twice through the triangulation (see `crossings` and `band`).
+//! Cost: a round follows every edge that is crossed through the triangulation (see `crossings`), searches for the vertices near every
+//! edge (see `cells`), and triangulates anew.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use delone_predicates::{lexicographic, orient2d};
+use delone_predicates::{lexicographic, orient2d, segment_rounds_to};
 
-use super::band::Bands;
-use super::crossings::{self, Crossing, Met};
+use super::cells::Cells;
+use super::crossings::{self, Met};
 use super::segments::SegmentId;
 use super::{ConstraintReport2, build};
 use crate::ids::VertexId;
+use crate::parallel;
 use crate::plane::Delaunay2;
-use crate::sorting;
 
 /// Segments without crossings.
 pub(super) struct Split {
-    /// The points, those added last.
-    pub(super) points: Vec<[f64; 2]>,
-    /// The pieces of all segments, each between two vertices.
-    pub(super) pieces: Vec<[VertexId; 2]>,
+    /// The points, those added last, with the pieces of all segments as constraints.
+    pub(super) graph: Delaunay2,
     /// The chains of segments that were split at a crossing.
     pub(super) bent: BTreeMap<SegmentId, Vec<VertexId>>,
-    pub(super) counts: ConstraintReport2,
+    pub(super) report: ConstraintReport2,
 }
 
 type Ends = [VertexId; 2];
@@ -53,142 +51,137 @@ fn sorted([v, w]: Ends) -> Ends {
     [v.min(w), v.max(w)]
 }
 
-/// Splits segments until nothing crosses.
-pub(super) fn resolve(mut points: Vec<[f64; 2]>, segments: &[Ends]) -> Split {
-    let given = points.len();
+/// Splits segments until nothing crosses. Those that are not refused are constraints of the triangulation.
+pub(super) fn resolve(mut graph: Delaunay2, segments: &[Ends], mut refused: Vec<u32>) -> Split {
+    let given = graph.points().len();
     let mut chains: Vec<Vec<VertexId>> = segments.iter().map(|ends| ends.to_vec()).collect();
+    let mut pieces = segments.to_vec();
     let mut is_bent = vec![false; segments.len()];
-    let mut counts = ConstraintReport2::default();
-    loop {
-        let links = || chains.iter().flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]));
-        let mut edges: Vec<Ends> = links().map(sorted).filter(|[v, w]| v != w).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let constrain = |points: &Vec<[f64; 2]>| {
-            build::constrained(points.clone(), &build::indices(&edges), &mut ConstraintReport2::default())
-        };
-        let (graph, _, refused) = constrain(&points);
-        let met = crossings::meet(&graph, &edges, &refused);
-        if met.crossings.is_empty() {
-            counts.added_points = points.len() - given;
-            let pieces = links().collect();
-            let bent = chains.into_iter().zip(is_bent).enumerate();
-            let bent =
-                bent.filter(|(_, (_, is_bent))| *is_bent).map(|(s, (chain, _))| (SegmentId::new(s), chain));
-            return Split { points, pieces, bent: bent.collect(), counts };
-        }
-        if !met.through.is_empty() {
+    let (mut crossing_count, mut rounds) = (0, 0);
+    let mut report = ConstraintReport2::default();
+    while !refused.is_empty() {
+        let edges = sorted_and_distinct(pieces.iter().copied().map(sorted).filter(|[v, w]| v != w));
+        let edge = |&s: &u32| edges.binary_search(&sorted(pieces[s as usize])).expect("an edge") as u32;
+        let met = crossings::meet(&graph, &edges, &sorted_and_distinct(refused.iter().map(edge)));
+        let mut points = graph.points().to_vec();
+        let on = if met.through.is_empty() {
+            crossing_count += met.crossings.len();
+            rounds += 1;
+            let rounded = round(&graph, &edges, &met, &mut points);
+            On::rounded(&graph, &points, &edges, &met, &rounded)
+        } else {
             // First all edges are cut at the vertices on them: which pieces a segment was given in does not show.
-            let on = On::exactly(&graph, &edges, &met);
-            chains.iter_mut().for_each(|chain| _ = on.extend(chain));
-            continue;
-        }
-        counts.crossings += met.crossings.len();
-        counts.rounds += 1;
-        let rounded = round(&graph, &edges, &met, &mut points);
-        let (graph, _, _) = constrain(&points);
-        let on = On::new(&graph, &edges, &met, &rounded);
+            On::sorted(&points, &edges, met.through)
+        };
+        drop(graph);
         for (chain, is_bent) in chains.iter_mut().zip(&mut is_bent) {
             *is_bent |= on.extend(chain);
         }
+        pieces = chains.iter().flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]])).collect();
+        report = ConstraintReport2::default();
+        (graph, _, refused) = build::constrained(points, &build::indices(&pieces), &mut report);
     }
+    report.crossings = crossing_count;
+    report.rounds = rounds;
+    report.added_points = graph.points().len() - given;
+    let bent = chains.into_iter().zip(is_bent).enumerate().filter(|(_, (_, is_bent))| *is_bent);
+    Split { graph, bent: bent.map(|(s, (chain, _))| (SegmentId::new(s), chain)).collect(), report }
+}
+
+fn sorted_and_distinct<T: Ord>(items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut items: Vec<T> = items.collect();
+    items.sort_unstable();
+    items.dedup();
+    items
 }
 
 /// Rounds crossings, and adds those that are no vertices yet to the points, in lexicographic order. Gives the vertex of each.
 fn round(graph: &Delaunay2, edges: &[Ends], met: &Met, points: &mut Vec<[f64; 2]>) -> Vec<VertexId> {
-    let place = |c: &Crossing| crossings::place(graph, edges[c.first as usize], edges[c.second as usize]);
-    let places: Vec<[f64; 2]> = met.crossings.iter().map(place).collect();
-    // By place: an old vertex before a new one that equals it.
-    let mut known: Vec<([f64; 2], Option<VertexId>)> = places.iter().map(|&p| (p, None)).collect();
-    known.extend(graph.vertices().map(|v| (graph.point(v), Some(v))));
-    sorting::by(&mut known, |p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
-    known.dedup_by(|later, earlier| later.0 == earlier.0);
-    for (p, vertex) in &mut known {
-        vertex.get_or_insert_with(|| {
-            points.push(*p);
-            VertexId::new(points.len() - 1)
-        });
+    let (given, count) = (points.len(), met.crossings.len());
+    let segment = |e: u32| edges[e as usize].map(|v| points[v.index()]);
+    let place =
+        |i: usize| crossings::place(segment(met.crossings[i].first), segment(met.crossings[i].second));
+    let places: Vec<[f64; 2]> = parallel::collect(count, place);
+    // By place: an old vertex before what equals it.
+    let mut known: Vec<([f64; 2], usize)> = graph.vertices().map(|v| (graph.point(v), v.index())).collect();
+    known.extend(places.into_iter().zip(given..));
+    known.sort_unstable_by(|p, q| lexicographic(p.0, q.0).then(p.1.cmp(&q.1)));
+    let mut rounded = vec![VertexId::GHOST; count];
+    for at_one in known.chunk_by(|p, q| p.0 == q.0) {
+        let (place, mut vertex) = at_one[0];
+        if vertex >= given {
+            vertex = points.len();
+            points.push(place);
+        }
+        for crossing in at_one.iter().filter_map(|&(_, number)| number.checked_sub(given)) {
+            rounded[crossing] = VertexId::new(vertex);
+        }
     }
-    let vertex_at = |p: &[f64; 2]| {
-        let at = known.binary_search_by(|entry| lexicographic(entry.0, *p));
-        at.ok().and_then(|at| known[at].1).expect("a vertex now")
-    };
-    places.iter().map(vertex_at).collect()
+    rounded
 }
 
 /// A vertex inside of an edge of this round; those of an edge are in order from its lesser end.
 struct On<'a> {
-    graph: &'a Delaunay2,
+    points: &'a [[f64; 2]],
     edges: &'a [Ends],
     inner: Vec<(u32, VertexId)>,
 }
 
 impl<'a> On<'a> {
-    /// The vertices strictly inside of edges.
-    fn exactly(graph: &'a Delaunay2, edges: &'a [Ends], met: &Met) -> Self {
-        let on = met.through.clone();
-        Self::sorted(graph, edges, on)
-    }
-
-    fn new(graph: &'a Delaunay2, edges: &'a [Ends], met: &Met, rounded: &[VertexId]) -> Self {
-        let mut on: Vec<(u32, VertexId)> = Vec::new();
-        let mut crosses = vec![false; edges.len()];
-        for (c, &v) in met.crossings.iter().zip(rounded) {
-            for e in [c.first, c.second] {
-                crosses[e as usize] = true;
-                on.push((e, v));
-            }
-        }
-        // That a segment goes through the cells of its own crossings is known.
-        on.sort_unstable();
-        let own = on.clone();
-        let mut hot = rounded.to_vec();
-        hot.sort_unstable();
-        let mut places: Vec<[f64; 2]> = hot.iter().map(|&v| graph.point(v)).collect();
-        sorting::by(&mut places, |p, q| lexicographic(*p, *q));
-        let is_near = |ends: Ends| {
-            let [a, b] = ends.map(|v| graph.point(v));
-            let start = places.partition_point(|p| p[0] < a[0].min(b[0]));
-            let in_range = places[start..].iter().take_while(|p| p[0] <= a[0].max(b[0]));
-            in_range.into_iter().any(|p| a[1].min(b[1]) <= p[1] && p[1] <= a[1].max(b[1]))
-        };
-        // Nothing else can be on an edge that is not crossed and has no rounded crossing in its box.
-        let looked_at = edges.iter().enumerate().filter(|&(e, &ends)| crosses[e] || is_near(ends));
-        let mut bands = Bands::new(graph);
-        for (e, &ends) in looked_at {
-            let is_own = |v: &VertexId| own.binary_search(&(e as u32, *v)).is_ok();
-            let is_wanted = |v: &VertexId| !is_own(v) && (crosses[e] || hot.binary_search(v).is_ok());
-            on.extend(bands.touched(ends, is_wanted).into_iter().map(|v| (e as u32, v)));
-        }
-        Self::sorted(graph, edges, on)
-    }
-
-    fn sorted(graph: &'a Delaunay2, edges: &'a [Ends], mut on: Vec<(u32, VertexId)>) -> Self {
-        on.retain(|&(e, v)| !edges[e as usize].contains(&v));
-        let along = |e: u32, v: VertexId, w: VertexId| {
-            let [a, b] = edges[e as usize].map(|v| graph.point(v));
-            let (p, q) = (graph.point(v), graph.point(w));
-            let axis = |k: usize| {
-                let order = p[k].total_cmp(&q[k]);
-                if p[k] == q[k] {
-                    Ordering::Equal
-                } else if b[k] < a[k] {
-                    order.reverse()
-                } else {
-                    order
+    /// The vertices through whose cells edges pass, if the edge is crossed or the vertex is a rounded crossing.
+    fn rounded(
+        graph: &Delaunay2,
+        points: &'a [[f64; 2]],
+        edges: &'a [Ends],
+        met: &Met,
+        rounded: &[VertexId],
+    ) -> Self {
+        let both = met.crossings.iter().zip(rounded).flat_map(|(c, &v)| [(c.first, v), (c.second, v)]);
+        let crossed_at = sorted_and_distinct(both);
+        let named = |v: VertexId| (points[v.index()], v);
+        let hot = sorted_and_distinct(rounded.iter().copied());
+        let mut hot = Cells::new(hot.into_iter().map(named).collect());
+        let mut old = Cells::new(graph.vertices().map(named).collect());
+        // That an edge goes through the cells of its own crossings is known.
+        let mut last_crossed = vec![u32::MAX; points.len()];
+        let (mut on, mut rest) = (Vec::new(), &crossed_at[..]);
+        for (e, &ends) in (0..).zip(edges) {
+            let (own, later) = rest.split_at(rest.iter().take_while(|on| on.0 == e).count());
+            rest = later;
+            own.iter().for_each(|on| last_crossed[on.1.index()] = e);
+            let [a, b] = ends.map(|v| points[v.index()]);
+            let mut each = |&(p, v): &([f64; 2], VertexId)| {
+                if last_crossed[v.index()] != e && segment_rounds_to(a, b, p) {
+                    on.push((e, v));
                 }
             };
-            axis(0).then_with(|| axis(1))
-        };
-        sorting::by(&mut on, |p, q| p.0.cmp(&q.0).then_with(|| along(p.0, p.1, q.1)));
-        on.dedup();
-        Self { graph, edges, inner: on }
+            hot.each_near([a, b], &mut each);
+            if !own.is_empty() {
+                old.each_near([a, b], &mut each);
+            }
+        }
+        on.extend(crossed_at);
+        Self::sorted(points, edges, on)
+    }
+
+    fn sorted(points: &'a [[f64; 2]], edges: &'a [Ends], on: Vec<(u32, VertexId)>) -> Self {
+        let inside = on.into_iter().filter(|&(e, v)| !edges[e as usize].contains(&v));
+        let mut inner = sorted_and_distinct(inside);
+        for of_one in inner.chunk_by_mut(|p, q| p.0 == q.0) {
+            let [a, b] = edges[of_one[0].0 as usize].map(|v| points[v.index()]);
+            let along = |v: VertexId| {
+                let p = points[v.index()];
+                [0, 1].map(|k| if b[k] < a[k] { -p[k] } else { p[k] })
+            };
+            of_one.sort_unstable_by(|p, q| lexicographic(along(p.1), along(q.1)));
+        }
+        Self { points, edges, inner }
     }
 
     /// Whether a vertex is off the line of its edge.
     fn is_off(&self, (e, v): (u32, VertexId)) -> bool {
-        let [a, b] = self.edges[e as usize].map(|v| self.graph.point(v));
-        !orient2d(a, b, self.graph.point(v)).is_zero()
+        let [a, b] = self.edges[e as usize].map(|v| self.points[v.index()]);
+        !orient2d(a, b, self.points[v.index()]).is_zero()
     }
 
     /// Replaces each link of a chain. Returns whether it bends anywhere.
