@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Judges Voronoi cells of lines and areas: valid, a coverage, and nowhere farther than the tolerance from the places nearest to a line.
+"""Judges Voronoi cells of lines and areas: valid, a coverage, and within the tolerance of the places nearest to a line.
 
 .ci/judges/lines.py PROGRAM FOLDER [SET...]
 """
@@ -45,8 +45,7 @@ SETS = {
     "many lines": (chains(3, 60), "lines", 1e-3),
     "lines, coarse": (chains(4, 20), "lines", 3e-2),
     "a grid": (
-        [shapely.LineString([(x, 0), (x, 1)]) for x in (0, 0.5, 1)]
-        + [shapely.LineString([(0, y), (1, y)]) for y in (0, 0.5, 1)],
+        [shapely.LineString([(x, 0), (x, 1)]) for x in (0, 0.5, 1)] + [shapely.LineString([(0, y), (1, y)]) for y in (0, 0.5, 1)],
         "lines",
         1e-2,
     ),
