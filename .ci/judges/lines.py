@@ -74,6 +74,19 @@ def judge(found, shapes, kind, tolerance):
     return faults
 
 
+def judge_axis(found, shapes, tolerance):
+    """What is wrong with a medial axis: it is inside, and its widths are twice the distance from the border."""
+    inside = shapely.union_all(shapes)
+    middles = shapely.line_interpolate_point(found.geometry.to_numpy(), 0.5, normalized=True)
+    faults = []
+    if len(found) == 0 or not shapely.contains(inside, middles).all():
+        faults.append("there is no axis, or some of it is outside")
+    off = np.abs(2 * shapely.distance(inside.boundary, middles) - found["width"].to_numpy()).max(initial=0)
+    if off > 2 * tolerance:
+        faults.append(f"a width is off by {off}")
+    return faults
+
+
 def main():
     """Judges all sets."""
     judged = Judge("cells of lines")
@@ -88,6 +101,11 @@ def main():
         faults = judged.run("voronoi", "given.geojson", *options)
         faults = faults or judge(geopandas.read_file(judged.folder / "cells.fgb"), shapes, kind, tolerance)
         judged.told(name, faults)
+        if kind == "areas":
+            axis = ["--medial-axis", "--tolerance", str(tolerance), "-o", "axis.gpkg"]
+            faults = judged.run("voronoi", "given.geojson", *axis)
+            faults = faults or judge_axis(geopandas.read_file(judged.folder / "axis.gpkg"), shapes, tolerance)
+            judged.told(f"{name}, axis", faults)
     judged.end()
 
 

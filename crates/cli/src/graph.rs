@@ -38,7 +38,7 @@ pub(crate) fn run<R: Room>(args: &ProximityArgs, quiet: bool) -> Result<(), Fail
         found.into_iter().map(|edge| edge.map(|v| v.index())).collect()
     };
     stats.phase("graph");
-    let edges = Edges { points: &points, pairs: &pairs, crs: about.crs.as_ref() };
+    let edges = Edges { points: &points, pairs: &pairs, widths: None, crs: about.crs.as_ref() };
     stats.set("edges", pairs.len());
     stats.set("length", edges.lengths().fold(0.0, |sum, length| sum + length));
     let _phase = Phase::start(quiet, "writing");

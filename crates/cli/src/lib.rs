@@ -29,6 +29,7 @@ mod interpolate;
 mod limits;
 mod lines;
 mod locate;
+mod medial;
 mod memory;
 mod mesh;
 #[doc(hidden)]

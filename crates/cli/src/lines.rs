@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use delone::{
-    Constrained2, Crossings, Delaunay2, Fill, LineCells2, Overlaps2, PolygonRegion2, Region2, SegmentId,
+    Bounds, Constrained2, Crossings, Delaunay2, Fill, LineCells2, Overlaps2, PolygonRegion2, SegmentId,
 };
 use delone_io::{Format, Graph, LineDiagram, Rows};
 
@@ -59,7 +59,7 @@ pub(crate) fn run(
     let made = {
         let _phase = Phase::start(quiet, "placing sites");
         let segments: Vec<[usize; 2]> = lines.segments.iter().map(|&s| graph.segments[s]).collect();
-        let tolerance = if args.tolerance > 0.0 { args.tolerance } else { tolerance(&region) };
+        let tolerance = if args.tolerance > 0.0 { args.tolerance } else { tolerance_of(&region.bounds()) };
         stats.set("tolerance", tolerance);
         LineCells2::new(&graph.cloud.xy, &segments, &lines.of_segments, &region, tolerance)
             .map_err(|error| Failure::graph(&label, &error))?
@@ -100,7 +100,7 @@ pub(crate) fn run(
 }
 
 /// Tells what is no line.
-fn tell_left(graph: &Graph, quiet: bool) {
+pub(crate) fn tell_left(graph: &Graph, quiet: bool) {
     let mut ends = vec![false; graph.cloud.xy.len()];
     graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
     if ends.contains(&false) {
@@ -111,9 +111,10 @@ fn tell_left(graph: &Graph, quiet: bool) {
     }
 }
 
-fn tolerance(region: &Region2) -> f64 {
-    let [low, high] = region.bounds();
-    PART_OF_DIAGONAL * (high[0] - low[0]).hypot(high[1] - low[1])
+/// The tolerance for points, if none is given.
+pub(crate) fn tolerance_of(points: &[[f64; 2]]) -> f64 {
+    let [width, height] = Bounds::of(points.iter().copied()).extent();
+    PART_OF_DIAGONAL * width.hypot(height)
 }
 
 /// Lines by number, in the order of the input.

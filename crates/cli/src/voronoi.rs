@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::{Delaunay2, Relaxation2};
+use delone::{Delaunay2, Region2, Relaxation2};
 use delone_io::{Cloud, Contents, Diagram};
 
 use crate::antimeridian;
@@ -10,6 +10,7 @@ use crate::args::{AntimeridianName, OfName, VoronoiArgs};
 use crate::clip::{is_polygon, merge, not_merged, polygon_region, refuse_numbers, region};
 use crate::files;
 use crate::lines;
+use crate::medial;
 use crate::message::Failure;
 use crate::orders;
 use crate::polyhedra;
@@ -38,7 +39,12 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&inputs, all.iter().map(AsRef::as_ref).chain(args.input.stats.as_deref()))?;
     let outputs =
         args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?)?;
-    files::check_formats(&outputs, &[Contents::Cells])?;
+    let content = if args.medial_axis.is_some() { Contents::Edges } else { Contents::Cells };
+    files::check_formats(&outputs, &[content])?;
+    if let Some(angle) = args.medial_axis {
+        files::keep_attributes(content);
+        return medial::run(args, angle, &outputs, Stats::start(), quiet);
+    }
     if args.order.is_none() {
         files::keep_attributes(Contents::Cells);
     }
@@ -81,15 +87,8 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return stats.write(args.input.stats.as_deref());
     }
     if args.relax > 0 {
-        let _phase = Phase::start(quiet, "relaxing");
-        let relaxation = Relaxation2::default().steps(args.relax).tolerance(args.tolerance);
-        let mut last = (0, 0.0);
-        let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
-        let points =
-            relaxation.run(&triangulation, &region, |step, moved| last = (step, moved)).map_err(failed)?;
+        let points = relaxed(args, &triangulation, &region, &mut stats, quiet)?;
         triangulation = build(&points)?;
-        stats.set("relaxed", last.0);
-        stats.set("moved", last.1);
         stats.phase("relax");
     }
     let cells = {
@@ -131,13 +130,31 @@ fn read(args: &VoronoiArgs, stats: &mut Stats, quiet: bool) -> Result<(Vec<[f64;
     Ok((points, about))
 }
 
+/// The sites where relaxation moves them.
+fn relaxed(
+    args: &VoronoiArgs,
+    triangulation: &Delaunay2,
+    region: &Region2,
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<Vec<[f64; 2]>, Failure> {
+    let _phase = Phase::start(quiet, "relaxing");
+    let relaxation = Relaxation2::default().steps(args.relax).tolerance(args.tolerance);
+    let mut last = (0, 0.0);
+    let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
+    let points = relaxation.run(triangulation, region, |step, moved| last = (step, moved)).map_err(failed)?;
+    stats.set("relaxed", last.0);
+    stats.set("moved", last.1);
+    Ok(points)
+}
+
 /// Refuses numbers and options that do not go together.
 fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
     refuse_numbers(args)?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }
-    if args.of != OfName::Points {
+    if args.of != OfName::Points || args.medial_axis.is_some() {
         let is_more = args.dim.is_space()
             || args.space.periodic.is_some()
             || args.weights.given().is_some()
@@ -147,7 +164,8 @@ fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
             || args.merge.is_some();
         if is_more {
             let help = "leave out what is for points: --dim 3, --periodic, --weights, --radii, --areas, --order, --relax, --merge";
-            return Err(Failure::usage("--of lines and --of areas are for the plane, without weights", help));
+            let what = "--of lines, --of areas and --medial-axis are for the plane, without weights";
+            return Err(Failure::usage(what, help));
         }
     }
     let is_plain = !args.dim.is_space()

@@ -93,3 +93,43 @@ fn what_is_for_points_is_refused() {
     let output = place.run("voronoi points.csv --of lines -o c.geojson");
     assert!(output.status.code() == Some(1) && text(&output.stderr).contains("there is no line in it"));
 }
+
+/// A bar of 8 by 2: a line of 6 in its middle, and four branches into corners.
+#[test]
+fn a_medial_axis_has_widths() {
+    let place = Place::new();
+    place.file("bar.wkt", "POLYGON ((0 0, 8 0, 8 2, 0 2, 0 0))\n");
+    let options = "--tolerance 0.001 -o a.geojson -o a.csv -o a.fgb -o a.gpkg -o a.npy --stats s.json";
+    place.succeed(&format!("voronoi bar.wkt --medial-axis {options}"));
+    let axis = json(&place, "a.geojson");
+    let (mut middle, mut branches) = (0.0, 0.0);
+    for feature in axis["features"].as_array().expect("features") {
+        let number = |name: &str| feature["properties"][name].as_f64().expect("a number");
+        let corner =
+            |k: usize, axis: usize| feature["geometry"]["coordinates"][k][axis].as_f64().expect("a number");
+        let at = [0, 1].map(|axis| 0.5 * (corner(0, axis) + corner(1, axis)));
+        // The distance from the border of the bar.
+        let distance = at[0].min(8.0 - at[0]).min(at[1]).min(2.0 - at[1]);
+        assert!((number("width") - 2.0 * distance).abs() < 0.004, "{feature}");
+        *(if (1.01..6.99).contains(&at[0]) { &mut middle } else { &mut branches }) += number("length");
+    }
+    assert!(
+        (middle - 6.0).abs() < 0.1 && (branches - 4.0 * 2.0_f64.sqrt()).abs() < 0.1,
+        "{middle} {branches}"
+    );
+    let text_of = std::fs::read_to_string(place.path("a.csv")).expect("text");
+    assert!(text_of.starts_with("from,to,length,width\n"), "{text_of}");
+    assert!(json(&place, "s.json")["deviation"].as_f64().expect("a length") <= 0.001);
+    // Right corners are seen under 90 degrees.
+    place.succeed("voronoi bar.wkt --medial-axis=100 --tolerance 0.001 -o a.geojson --stats s.json");
+    assert!((json(&place, "s.json")["length"].as_f64().expect("a length") - 6.0).abs() < 0.1);
+    for (more, status) in [("--of lines", 2), ("--clip hull", 2), ("--order 2", 2), ("--medial-axis=181", 2)]
+    {
+        let axis = if more.contains("axis") { "" } else { "--medial-axis" };
+        let output = place.run(&format!("voronoi bar.wkt {axis} {more} -o b.geojson"));
+        assert_eq!(output.status.code(), Some(status), "{more}: {}", text(&output.stderr));
+    }
+    place.file("point.wkt", "POLYGON ((1 1, 1 1, 1 1, 1 1))\n");
+    place.succeed("voronoi point.wkt --medial-axis -o a.geojson");
+    assert_eq!(json(&place, "a.geojson")["features"].as_array().expect("features").len(), 0);
+}

@@ -135,7 +135,7 @@ fn what_is_written_is_in_the_table() {
                 }
                 Contents::Edges => {
                     // Pictures of edges are drawn with the triangulation below.
-                    let edges = Edges { points: &flat, pairs: &[[0, 1]], crs: None };
+                    let edges = Edges { points: &flat, pairs: &[[0, 1]], widths: None, crs: None };
                     is_refused(write_edges(out, format, &edges), format, contents)
                 }
                 Contents::Patches => is_refused(write_patches(out, format, &patches, 20), format, contents),

@@ -143,7 +143,7 @@ fn contours_come_back() {
 #[test]
 fn graphs_and_edges_come_back() {
     let points = points();
-    let edges = Edges { points: &points, pairs: &[[0, 1], [7, 3]], crs: None };
+    let edges = Edges { points: &points, pairs: &[[0, 1], [7, 3]], widths: None, crs: None };
     compare("edges", |out, format| write_edges(out, format, &edges));
     let z = Some(points.iter().map(|p| p[1]).collect());
     let graph = Graph {

@@ -135,6 +135,7 @@ impl CutArgs {
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
   delone voronoi shops.csv --order 3 -o three-nearest.geojson
   delone voronoi roads.geojson --of lines --tolerance 1 -o nearest-road.geojson
+  delone voronoi rivers.geojson --medial-axis --tolerance 5 -o middle.gpkg
   delone voronoi shops.csv --areas customers -o districts.geojson
   delone voronoi grains.csv --dim 3 --radii r -o cells.vtu -o cells.json
   delone voronoi atoms.csv --dim 3 --periodic 20,20,20 --grid auto -o volumes.csv
@@ -186,6 +187,9 @@ pub(crate) struct VoronoiArgs {
     /// The sites: points, lines (each feature, which may be a polygon for its border), or areas (polygons that do not overlap). The cell of a line is where it is the nearest one.
     #[arg(long, value_name = "WHAT", default_value = "points")]
     pub(crate) of: OfName,
+    /// Instead of cells the medial axis of polygons: edges in their middle, with `width`, as GeoJSON, FlatGeobuf, GeoPackage, text or npy. Both sides of the border are seen under at least so many degrees, which leaves corners out that are nearly straight.
+    #[arg(long, value_name = "DEGREES", num_args = 0..=1, require_equals = true, default_missing_value = "60", conflicts_with_all = ["of", "clip", "bounds", "sites"])]
+    pub(crate) medial_axis: Option<f64>,
     /// Where which K sites are the nearest: the diagram of order K, at most the number of sites.
     #[arg(long, value_name = "K", conflicts_with_all = ["relax", "tolerance", "weights", "radii"])]
     pub(crate) order: Option<usize>,

@@ -54,5 +54,5 @@ pub use refine::{
 };
 pub use region::Region2;
 pub use regular::{Jacobian2, Power2, Prescribed2, Regular2};
-pub use voronoi::{Cell2, Cells2, LineCells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};
+pub use voronoi::{Cell2, Cells2, LineCells2, MedialAxis2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};
 pub use weld::Weld2;

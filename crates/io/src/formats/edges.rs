@@ -14,6 +14,8 @@ pub struct Edges<'a, P> {
     pub points: &'a [P],
     /// Pairs of indices of points.
     pub pairs: &'a [[usize; 2]],
+    /// The width around each, where edges have one.
+    pub widths: Option<&'a [f64]>,
     /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
 }
@@ -28,11 +30,15 @@ impl<P: Coordinates> Edges<'_, P> {
     }
 
     fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "from,to,length")?;
-        self.pairs
-            .iter()
-            .zip(self.lengths())
-            .try_for_each(|([v, w], length)| writeln!(out, "{v},{w},{length:?}"))
+        writeln!(out, "from,to,length{}", if self.widths.is_some() { ",width" } else { "" })?;
+        for (k, ([v, w], length)) in self.pairs.iter().zip(self.lengths()).enumerate() {
+            write!(out, "{v},{w},{length:?}")?;
+            match self.widths {
+                Some(widths) => writeln!(out, ",{:?}", widths[k])?,
+                None => writeln!(out)?,
+            }
+        }
+        Ok(())
     }
 
     /// A feature for each edge, with the indices of its ends and its length.
@@ -43,10 +49,12 @@ impl<P: Coordinates> Edges<'_, P> {
         for (k, (edge, length)) in self.pairs.iter().zip(self.lengths()).enumerate() {
             let separator = if k == 0 { "" } else { "," };
             // JSON has no number for what is infinite.
-            let length = if length.is_finite() { format!("{length:?}") } else { "null".to_owned() };
+            let number = |x: f64| if x.is_finite() { format!("{x:?}") } else { "null".to_owned() };
+            let length = number(length);
+            let width = self.widths.map_or_else(String::new, |of| format!(",\"width\":{}", number(of[k])));
             write!(
                 out,
-                "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{edge:?},\"length\":{length}}},"
+                "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{edge:?},\"length\":{length}{width}}},"
             )?;
             let [a, b] = edge.map(|i| self.points[i].as_ref());
             write!(out, "\"geometry\":{{\"type\":\"LineString\",\"coordinates\":[{a:?},{b:?}]}}}}")?;
@@ -84,7 +92,7 @@ mod tests {
 
     fn written(format: Format) -> String {
         let points = [[0.0, 0.0, 0.0], [1.0, 2.0, -2.0], [f64::MAX, -f64::MAX, 0.5]];
-        let edges = Edges { points: &points, pairs: &[[0, 1], [1, 2]], crs: None };
+        let edges = Edges { points: &points, pairs: &[[0, 1], [1, 2]], widths: None, crs: None };
         let mut out = Vec::new();
         write_edges(&mut out, format, &edges).expect("written");
         String::from_utf8_lossy(&out).into_owned()
@@ -102,7 +110,7 @@ mod tests {
             write_edges(
                 &mut Vec::new(),
                 Format::Las,
-                &Edges::<[f64; 2]> { points: &[], pairs: &[], crs: None }
+                &Edges::<[f64; 2]> { points: &[], pairs: &[], widths: None, crs: None }
             )
             .is_err()
         );

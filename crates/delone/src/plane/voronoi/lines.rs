@@ -91,24 +91,34 @@ impl LineCells2 {
         let c = Constrained2::with_crossings(points, segments, Crossings::Split)?;
         let mut made = Self::default();
         let mut pieces = made.pieces(&c, |segment| lines[segment.index()]);
+        let d = made.settle(&mut pieces, region, Borders { tolerance, cosine: None })?;
+        let groups = lines.iter().max().map_or(0, |last| last + 1);
+        let cells = d.voronoi().clip(region);
+        made.cells = cells.joined(|site| made.lines.get(site.index()).copied(), groups);
+        Ok(made)
+    }
+
+    /// Divides pieces until none must be. Gives the triangulation of all sites.
+    pub(super) fn settle(
+        &mut self,
+        pieces: &mut Vec<Piece>,
+        region: &Region2,
+        borders: Borders,
+    ) -> Result<Delaunay2, Error> {
         loop {
-            made.rounds += 1;
-            let d = Delaunay2::from_points(&made.sites)?;
-            let round = Round { made: &made, pieces: &pieces, d: &d, region, tolerance };
-            let (marked, deviation) = round.run();
-            made.deviation = deviation;
+            self.rounds += 1;
+            let d = Delaunay2::from_points(&self.sites)?;
+            let (marked, deviation) = Round::new(self, pieces, &d, region, borders).run();
+            self.deviation = deviation;
             if marked.is_empty() {
-                let groups = lines.iter().max().map_or(0, |last| last + 1);
-                let cells = d.voronoi().clip(region);
-                made.cells = cells.joined(|site| made.lines.get(site.index()).copied(), groups);
-                return Ok(made);
+                return Ok(d);
             }
-            made.divide(&mut pieces, marked)?;
+            self.divide(pieces, marked)?;
         }
     }
 
     /// The pieces that lines have at first: constraints between vertices.
-    fn pieces(&mut self, c: &Constrained2, line: impl Fn(SegmentId) -> usize) -> Vec<Piece> {
+    pub(super) fn pieces(&mut self, c: &Constrained2, line: impl Fn(SegmentId) -> usize) -> Vec<Piece> {
         let mut sites: Vec<Option<usize>> = vec![None; c.points().len()];
         let mut pieces = Vec::new();
         for (e, [v, w]) in c.constraint_edges().zip(c.constraints()) {
@@ -153,41 +163,65 @@ impl LineCells2 {
 
 /// A piece of a line between two sites.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+pub(super) struct Piece {
     ends: [usize; 2],
     line: usize,
 }
 
+/// The borders that count, and how exact they are to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Borders {
+    pub(super) tolerance: f64,
+    /// Not those between lines, but where the nearest places on both sides are seen under an angle of at most this cosine.
+    pub(super) cosine: Option<f64>,
+}
+
 /// The look at one triangulation.
-struct Round<'a> {
+pub(super) struct Round<'a> {
     made: &'a LineCells2,
     pieces: &'a [Piece],
     d: &'a Delaunay2,
     region: &'a Region2,
-    tolerance: f64,
+    borders: Borders,
+    /// The pieces at each site.
+    at_sites: Vec<Vec<usize>>,
 }
 
-impl Round<'_> {
-    /// The pieces that must be divided, and the largest deviation of a border.
-    fn run(&self) -> (Vec<usize>, f64) {
-        let mut at_sites: Vec<Vec<usize>> = vec![Vec::new(); self.made.sites.len()];
-        for (number, piece) in self.pieces.iter().enumerate() {
+impl<'a> Round<'a> {
+    pub(super) fn new(
+        made: &'a LineCells2,
+        pieces: &'a [Piece],
+        d: &'a Delaunay2,
+        region: &'a Region2,
+        borders: Borders,
+    ) -> Self {
+        let mut at_sites: Vec<Vec<usize>> = vec![Vec::new(); made.sites.len()];
+        for (number, piece) in pieces.iter().enumerate() {
             piece.ends.into_iter().for_each(|site| at_sites[site].push(number));
         }
+        Self { made, pieces, d, region, borders, at_sites }
+    }
+
+    /// The pieces that must be divided, and the largest deviation of a border.
+    fn run(&self) -> (Vec<usize>, f64) {
         let mut marked: Vec<usize> = (0..self.pieces.len()).filter(|&piece| self.is_crossed(piece)).collect();
         let mut deviation: f64 = 0.0;
         let mesh = self.d.mesh();
         for e in mesh.undirected_edges() {
             let sites = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
             let [one, other] = sites.map(|site| self.made.lines[site]);
-            if one == other || !self.d.voronoi().has_length(e) {
+            let is_between = one != other || self.borders.cosine.is_some();
+            if !is_between || !self.d.voronoi().has_length(e) {
                 continue;
             }
             let Some([p, q]) = self.within(self.d.voronoi().edge(e)) else { continue };
             let middle = [0, 1].map(|k| 0.5 * p[k] + 0.5 * q[k]);
             for at in [p, middle, q] {
-                let near = sites.map(|site| self.nearest(at, site, &at_sites[site]));
-                let Some(off) = deviation_at(at, near.map(|near| near.0)) else { continue };
+                let near = sites.map(|site| self.nearest(at, site));
+                let Some((off, cosine)) = deviation_at(at, near.map(|near| near.0)) else { continue };
+                if self.borders.cosine.is_some_and(|most| cosine > most) {
+                    continue;
+                }
                 let divided: Vec<usize> = near
                     .iter()
                     .filter_map(|near| near.1)
@@ -196,14 +230,36 @@ impl Round<'_> {
                 if !divided.is_empty() {
                     deviation = deviation.max(off);
                 }
-                if off > MEASURED_PART * self.tolerance {
+                if off > MEASURED_PART * self.borders.tolerance {
                     marked.extend(divided);
                 }
             }
         }
+        if self.borders.cosine.is_some() {
+            self.mark_far(&mut marked);
+        }
         marked.sort_unstable();
         marked.dedup();
         (marked, deviation)
+    }
+
+    /// Marks pieces that are nearer to a Voronoi vertex than their ends, by more than a part of the tolerance. Without that there may be no border
+    /// to measure: of a rectangle by its corners the diagram is one vertex.
+    fn mark_far(&self, marked: &mut Vec<usize>) {
+        let mesh = self.d.mesh();
+        let [low, high] = self.region.bounds();
+        for t in mesh.triangles() {
+            let Some(at) = self.d.circumcenter(t) else { continue };
+            let is_within = [0, 1].into_iter().all(|k| low[k] <= at[k] && at[k] <= high[k]);
+            let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
+            for site in mesh.corners(t).map(VertexId::index).into_iter().filter(|_| is_within) {
+                let (near, piece) = self.nearest(at, site);
+                let nearer = distance(self.made.sites[site]) - distance(near);
+                if nearer > MEASURED_PART * self.borders.tolerance {
+                    marked.extend(piece.filter(|&piece| self.may_be_divided(piece)));
+                }
+            }
+        }
     }
 
     fn length(&self, piece: usize) -> f64 {
@@ -214,7 +270,7 @@ impl Round<'_> {
     fn may_be_divided(&self, piece: usize) -> bool {
         let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
         let middle = [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
-        middle != a && middle != b && self.length(piece) > LEAST_PIECE * self.tolerance
+        middle != a && middle != b && self.length(piece) > LEAST_PIECE * self.borders.tolerance
     }
 
     /// Whether a site is in the circle on a piece, or the piece is no edge, or an end is the site of another line, and it can be divided.
@@ -234,11 +290,12 @@ impl Round<'_> {
     }
 
     /// The nearest place to a point on the pieces at a site, and the piece, unless it is the site.
-    fn nearest(&self, at: [f64; 2], site: usize, pieces: &[usize]) -> ([f64; 2], Option<usize>) {
+    pub(super) fn nearest(&self, at: [f64; 2], site: usize) -> ([f64; 2], Option<usize>) {
         let own = self.made.sites[site];
         let square = |p: [f64; 2]| (p[0] - at[0]) * (p[0] - at[0]) + (p[1] - at[1]) * (p[1] - at[1]);
         let mut best = (own, None);
-        for &piece in pieces.iter().filter(|&&piece| self.pieces[piece].line == self.made.lines[site]) {
+        let line = self.made.lines[site];
+        for &piece in self.at_sites[site].iter().filter(|&&piece| self.pieces[piece].line == line) {
             let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
             let (u, w) = ([b[0] - a[0], b[1] - a[1]], [at[0] - a[0], at[1] - a[1]]);
             let part = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
@@ -276,12 +333,14 @@ impl Round<'_> {
     }
 }
 
-/// How far a place is from where two others are equally far away, to first order. Nothing if these are one place.
-fn deviation_at(at: [f64; 2], near: [[f64; 2]; 2]) -> Option<f64> {
+/// How far a place is from where two others are equally far away, to first order, and the cosine of the angle that it sees them under. Nothing
+/// if these are one place.
+pub(super) fn deviation_at(at: [f64; 2], near: [[f64; 2]; 2]) -> Option<(f64, f64)> {
     let ways = near.map(|p| [p[0] - at[0], p[1] - at[1]]);
     let lengths = ways.map(|way| way[0].hypot(way[1]));
     let units = [0, 1].map(|i| ways[i].map(|x| x / lengths[i]));
     let steepness = (units[0][0] - units[1][0]).hypot(units[0][1] - units[1][1]);
     let off = (lengths[0] - lengths[1]).abs() / steepness;
-    (!off.is_nan()).then_some(off)
+    let cosine = units[0][0] * units[1][0] + units[0][1] * units[1][1];
+    (!off.is_nan()).then_some((off, cosine))
 }

@@ -21,12 +21,14 @@ pub(in crate::plane) mod clip;
 mod contract;
 mod joined;
 mod lines;
+mod medial;
 mod merge;
 mod relax;
 mod single;
 
 pub use cells::{Cell2, Cells2, Ring};
 pub use lines::LineCells2;
+pub use medial::MedialAxis2;
 pub use relax::Relaxation2;
 
 use delone_predicates::in_circle_with_ties;

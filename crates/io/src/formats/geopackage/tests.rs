@@ -139,7 +139,7 @@ fn layers_are_written_with_an_index() {
             .collect();
         let pairs: Vec<[usize; 2]> = (0..count).map(|i| [i, i + 1]).collect();
         let mut bytes = Vec::new();
-        let edges = Edges { points: &points, pairs: &pairs, crs: None };
+        let edges = Edges { points: &points, pairs: &pairs, widths: None, crs: None };
         write_edges(&mut bytes, Format::GeoPackage, &edges).expect("memory");
         let mut written = Connection::open_in_memory().expect("memory");
         written.deserialize_read_exact(MAIN_DB, &bytes[..], bytes.len(), true).expect("a database");

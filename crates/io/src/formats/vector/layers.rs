@@ -298,7 +298,9 @@ impl<P: Coordinates> Layer for Edged<'_, '_, P> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::new("vertices", ColumnType::Text), Column::new("length", ColumnType::Number)]
+        let of_all = [Column::new("vertices", ColumnType::Text), Column::new("length", ColumnType::Number)];
+        let width = self.0.widths.map(|_| Column::new("width", ColumnType::Number));
+        of_all.into_iter().chain(width).collect()
     }
 
     fn form(&self) -> Option<Form> {
@@ -319,12 +321,17 @@ impl<P: Coordinates> Layer for Edged<'_, '_, P> {
 
     fn each(&self, take: Take) -> Result<(), Error> {
         let mut geometry = Geometry::default();
-        for (edge, length) in self.0.pairs.iter().zip(self.0.lengths()) {
+        for (k, (edge, length)) in self.0.pairs.iter().zip(self.0.lengths()).enumerate() {
             geometry.clear(Kind::Line);
             geometry.positions.extend(edge.map(|i| in_space(&self.0.points[i])));
             geometry.end_line();
             let vertices = format!("{edge:?}");
-            take(&geometry, &mut in_order([Value::Json(&vertices), finite(length)]))?;
+            let (of_all, width) =
+                ([Value::Json(&vertices), finite(length)], self.0.widths.map(|of| finite(of[k])));
+            match width {
+                Some(width) => take(&geometry, &mut in_order([of_all[0].clone(), of_all[1].clone(), width]))?,
+                None => take(&geometry, &mut in_order(of_all))?,
+            }
         }
         Ok(())
     }
