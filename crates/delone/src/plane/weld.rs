@@ -14,14 +14,15 @@
 //!
 //! Segments that cross without a vertex near the crossing still cross: what becomes of these is said by [`Crossings`](crate::Crossings).
 //!
-//! Cost: O(n log n + k) typical for n points and k pairs of a vertex and a box around a segment.
+//! Cost: a triangulation, which tells the points that have neighbors within the tolerance, and O(n log n + k) typical for n points and k pairs of a vertex and a box around a segment.
 
 use delone_predicates::{compare_distances, compare_lengths, compare_segment_with_radius, lexicographic};
 
 use super::boxes::{Boxes, span};
 use crate::error::Error;
-use crate::ids::MAX_POINTS;
+use crate::ids::{MAX_POINTS, VertexId};
 use crate::neighbors::Neighbors2;
+use crate::plane::delaunay::Delaunay2;
 use crate::points::{Position2, check_count, check_finite};
 use crate::sorting;
 
@@ -94,6 +95,10 @@ impl Weld2 {
             made.moved += 1;
             made.largest_move = made.largest_move.max(x.hypot(y));
         }
+        if segments.is_empty() {
+            made.stays = stays;
+            return Ok(made);
+        }
         let mut vertices: Vec<usize> = (0..count).filter(|&i| stays[i] == i).collect();
         sorting::by(&mut vertices, |&i, &j| lexicographic(points[i], points[j]));
         let boxes = Boxes::new(vertices.iter().map(|&i| [points[i]; 2]).collect());
@@ -116,6 +121,38 @@ impl Weld2 {
 
 /// For each point the one that it becomes.
 fn stays(points: &[[f64; 2]], tolerance: f64) -> Result<Vec<usize>, Error> {
+    let mut all: Vec<usize> = (0..points.len()).collect();
+    let close = with_neighbors(points, tolerance)?;
+    let near: Vec<[f64; 2]> = close.iter().map(|&i| points[i]).collect();
+    for (&i, to) in close.iter().zip(stays_of_close(&near, tolerance)?) {
+        all[i] = close[to];
+    }
+    Ok(all)
+}
+
+/// The points that may have another one within the tolerance, by increasing index: the nearest one is across a Delaunay edge.
+fn with_neighbors(points: &[[f64; 2]], tolerance: f64) -> Result<Vec<usize>, Error> {
+    /// Rounding of a length, and more; the least normal number covers that of subnormal ones.
+    const ROOM: f64 = 1.0 + 1e-12;
+    let d = Delaunay2::from_points(points)?;
+    let mesh = d.mesh();
+    let mut is_close = vec![false; points.len()];
+    for e in mesh.undirected_edges() {
+        let ends = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
+        let [a, b] = ends.map(|i| points[i]);
+        if (b[0] - a[0]).hypot(b[1] - a[1]) <= tolerance * ROOM + f64::MIN_POSITIVE {
+            ends.into_iter().for_each(|i| is_close[i] = true);
+        }
+    }
+    for duplicate in d.duplicates() {
+        is_close[duplicate.point] = true;
+        is_close[duplicate.vertex.index()] = true;
+    }
+    Ok((0..points.len()).filter(|&i| is_close[i]).collect())
+}
+
+/// For each point the one that it becomes, by index among these.
+fn stays_of_close(points: &[[f64; 2]], tolerance: f64) -> Result<Vec<usize>, Error> {
     let tree = Neighbors2::from_points(points)?;
     let mut order: Vec<usize> = (0..points.len()).collect();
     sorting::by(&mut order, |&i, &j| lexicographic(points[i], points[j]).then(i.cmp(&j)));
