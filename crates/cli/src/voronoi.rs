@@ -155,6 +155,10 @@ fn refuse(args: &VoronoiArgs) -> Result<(), Failure> {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }
     if args.of != OfName::Points || args.medial_axis.is_some() {
+        if !(args.tolerance >= 0.0 && args.tolerance.is_finite()) {
+            let help = "give a length, or 0 for a thousandth of the diagonal";
+            return Err(Failure::usage(format!("--tolerance is {}: it is no length", args.tolerance), help));
+        }
         let is_more = args.dim.is_space()
             || args.space.periodic.is_some()
             || args.weights.given().is_some()

@@ -88,7 +88,7 @@ fn cells_are_a_function_of_the_lines() {
     let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(close(&areas(&made), &areas(&other)));
     // Powers of two.
-    for power in [-300, 40, 300] {
+    for power in [-660, -300, 40, 300, 660] {
         let by = 2.0_f64.powi(power);
         let scaled: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x * by)).collect();
         let box_of = Region2::rectangle([-0.5 * by; 2], [1.5 * by; 2]).expect("a box");
@@ -149,4 +149,27 @@ fn a_cell_around_another_has_a_hole() {
     assert_eq!(rings.len(), 2);
     assert!(rings.iter().any(|&area| area < 0.0) && rings.contains(&4.0));
     assert!(Constrained2::from_parts(&points, &segments).is_ok());
+}
+
+/// Cells of many corners, and a corner of many lines.
+#[test]
+fn long_borders_and_hubs_are_no_squares_of_work() {
+    let n = 20_000;
+    let at = |i: usize, radius: f64| {
+        let angle = std::f64::consts::TAU * i as f64 / n as f64;
+        [0.5 + radius * angle.cos(), 0.5 + radius * angle.sin()]
+    };
+    let mut points: Vec<[f64; 2]> = (0..n).map(|i| at(i, 0.4)).chain((0..n).map(|i| at(i, 0.2))).collect();
+    let segments: Vec<[usize; 2]> = (0..2 * n).map(|i| [i, i / n * n + (i + 1) % n]).collect();
+    let lines: Vec<usize> = (0..2 * n).map(|i| i / n).collect();
+    let made = LineCells2::new(&points, &segments, &lines, &region(), 1e-3).expect("two rings");
+    assert!((made.cells.area(VertexId::new(1)) - std::f64::consts::PI * 0.09).abs() < 0.002);
+    points.truncate(n);
+    points.push([0.5, 0.5]);
+    let spokes: Vec<[usize; 2]> = (0..2000).map(|i| [n, i * 10]).collect();
+    for lines in [vec![0; 2000], (0..2000).collect()] {
+        let made = LineCells2::new(&points, &spokes, &lines, &region(), 0.05).expect("a hub");
+        let area: f64 = (0..2000).map(|line| made.cells.area(VertexId::new(line))).sum();
+        assert!((area - 4.0).abs() < 1e-9);
+    }
 }

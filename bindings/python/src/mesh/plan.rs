@@ -1,7 +1,7 @@
 //! The criteria of a mesh, with Python's objects and without them.
 
 use delone::{
-    Constrained2, Domains2, Error, Fill, Gap2, Keep, Layers2, Refinement, RegionSeed2, Seeds2, SegmentId,
+    Constrained2, Domains2, Error, Fill, Keep, Layers2, Refinement, RegionSeed2, Seeds2, SegmentId,
     TriangleId, Triangulation as _, VertexId,
 };
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -243,7 +243,7 @@ impl Plan {
         }
         // What is refined again was looked at.
         let gap = if self.min_angle > 0.0 && known.is_none() && triangles.is_empty() {
-            made.narrowest_gap(&made.domains(&fill)?).filter(Gap2::is_tiny)
+            made.tiny_gap(&made.domains(&fill)?)
         } else {
             None
         };

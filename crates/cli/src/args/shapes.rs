@@ -196,8 +196,8 @@ pub(crate) struct VoronoiArgs {
     /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) relax: usize,
-    /// Stop relaxing when no site moves further than this, in coordinate units. With --of lines or areas, how far a border may be from where
-    /// both are equally far away; 0 is a thousandth of the diagonal of the region.
+    /// Stop relaxing when no site moves further than this, in coordinate units. With --of lines, --of areas and --medial-axis the largest distance
+    /// of a border from the exact one; 0 is a thousandth of the diagonal of the region.
     #[arg(long, value_name = "DISTANCE", default_value_t = 0.0)]
     pub(crate) tolerance: f64,
     /// Write the sites, as relaxed, to a file of points.

@@ -1,6 +1,6 @@
 //! The summary of a mesh: counts, angles, and triangles that are not as wanted.
 
-use delone::{Constrained2, Domains2, Gap2, Reason, RefinementReport2, SegmentId, Shapes2};
+use delone::{Constrained2, Domains2, Reason, RefinementReport2, SegmentId, Shapes2};
 use serde_json::{Map, Value, json};
 
 use crate::message::{grouped, say, warn};
@@ -64,7 +64,7 @@ pub(super) fn left(report: &RefinementReport2) -> Option<String> {
 
 /// Warns of a gap that is too narrow to be meant: triangles become as small as it is, if they can.
 pub(super) fn gap(c: &Constrained2, inside: &Domains2, quiet: bool) {
-    let Some(gap) = c.narrowest_gap(inside).filter(Gap2::is_tiny) else { return };
+    let Some(gap) = c.tiny_gap(inside) else { return };
     let ([one, other], [x, y]) = (gap.segments.map(SegmentId::index), gap.at);
     warn(
         quiet,

@@ -134,3 +134,30 @@ fn the_exponent_is_of_twice_the_width() {
         assert_eq!((gap.width, gap.exponent()), (y, exponent));
     }
 }
+
+/// A hub has many segments; no vertex looks at all of them. Gaps of normal width are not looked for.
+#[test]
+fn hubs_and_rings_have_no_tiny_gap() {
+    let n = 20_000;
+    let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
+    let around: Points = (0..n).map(|i| [angle(i).cos(), angle(i).sin()]).collect();
+    let hub: Points = around.iter().copied().chain([[0.0, 0.0]]).collect();
+    let spokes: Segments = (0..n).map(|i| [n, i]).collect();
+    let ring: Segments = (0..n).map(|i| [i, (i + 1) % n]).collect();
+    for segments in [&spokes, &ring, &[&spokes[..], &ring[..]].concat()] {
+        let c = Constrained2::from_parts(&hub, segments).expect("planar");
+        assert_eq!(c.tiny_gap(&c.domains(&Fill::All).expect("parts")), None);
+    }
+}
+
+/// Widths and segments at all scales, as nothing is squared.
+#[test]
+fn gaps_have_all_scales() {
+    for scale in [1.0, 2.0_f64.powi(660), 2.0_f64.powi(-660)] {
+        let points =
+            [[0.0, 0.0], [1.0, 0.0], [0.5, 1e-9], [0.5, 9.0]].map(|p: [f64; 2]| p.map(|x| x * scale));
+        let c = Constrained2::from_parts(&points, &[[0, 1], [2, 3]]).expect("two segments");
+        let gap = c.tiny_gap(&c.domains(&Fill::All).expect("parts")).expect("a gap");
+        assert_eq!((gap.width, gap.segments.map(|s| s.index())), (1e-9 * scale, [0, 1]));
+    }
+}

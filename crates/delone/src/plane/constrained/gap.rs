@@ -3,7 +3,7 @@
 //! Around each vertex the triangles nearer than the narrowest gap so far are searched, up to constraints. Segments that meet at a small
 //! angle, or are joined to the same vertex under one, are no gap: welding would not help.
 //!
-//! Cost: O(n) typical: few triangles beside its star are so near to a vertex.
+//! Cost: O(n log n) typical: few triangles beside its star are so near to a vertex.
 
 use std::collections::BTreeSet;
 
@@ -73,9 +73,20 @@ impl Constrained2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn narrowest_gap(&self, domains: &Domains2) -> Option<Gap2> {
+        self.gap_below(domains, f64::INFINITY)
+    }
+
+    /// The narrowest gap inside if it is narrower than [`Gap2::TINY_PART`]: only what is so near to a vertex is looked at.
+    pub fn tiny_gap(&self, domains: &Domains2) -> Option<Gap2> {
+        self.gap_below(domains, Gap2::TINY_PART * self.diagonal()).filter(Gap2::is_tiny)
+    }
+
+    fn gap_below(&self, domains: &Domains2, limit: f64) -> Option<Gap2> {
+        let mut has_segment = vec![false; self.points().len()];
+        self.constraints().flatten().for_each(|v| has_segment[v.index()] = true);
         let mut best: Option<Found> = None;
-        for v in self.vertices() {
-            best = self.narrowest_around(v, domains, best);
+        for v in self.vertices().filter(|v| has_segment[v.index()]) {
+            best = self.narrowest_around(v, domains, (limit, &has_segment), best);
         }
         let found = best?;
         let segment = |e: EdgeId| self.covering(e).first().map(|covering| covering.segment);
@@ -83,43 +94,54 @@ impl Constrained2 {
             let [p, q] = [e, f].map(|e| self.segment(e)[1]);
             lexicographic(p, q)
         })?;
-        let [width, height] = Bounds::of(self.vertices().map(|v| self.point(v))).extent();
         Some(Gap2 {
             width: found.width,
             at: self.point(found.other),
-            part: found.width / width.hypot(height),
+            part: found.width / self.diagonal(),
             segments: [segment(found.one)?, segment(spoke)?],
         })
     }
 
-    /// The narrowest of a gap and of those between a vertex and constraints that it sees inside.
-    fn narrowest_around(&self, v: VertexId, domains: &Domains2, mut best: Option<Found>) -> Option<Found> {
+    fn diagonal(&self) -> f64 {
+        let [width, height] = Bounds::of(self.vertices().map(|v| self.point(v))).extent();
+        width.hypot(height)
+    }
+
+    /// The narrowest of a gap and of those between a vertex and constraints that it sees inside, up to a limit.
+    fn narrowest_around(
+        &self,
+        v: VertexId,
+        domains: &Domains2,
+        (limit, has_segment): (f64, &[bool]),
+        mut best: Option<Found>,
+    ) -> Option<Found> {
         let mesh = self.mesh();
-        if self.fixed_spokes(v).next().is_none() {
-            return best;
-        }
         let q = self.point(v);
+        let width_of = |e: EdgeId| distance(q, nearest(q, self.segment(e)));
         let star = mesh.star(v).filter(|e| domains.is_inside(e.triangle()));
         let mut edges: Vec<EdgeId> = star.map(|e| e.next()).collect();
-        let mut seen: BTreeSet<TriangleId> = edges.iter().map(|e| e.triangle()).collect();
+        let mut seen: BTreeSet<TriangleId> = BTreeSet::new();
         while let Some(e) = edges.pop() {
-            let near = nearest(q, self.segment(e));
-            let width = (near[0] - q[0]).hypot(near[1] - q[1]);
-            if width.is_nan() || best.is_some_and(|best| width > best.width) {
+            let most = best.map_or(limit, |best| best.width);
+            let width = width_of(e);
+            if width.is_nan() || width > most {
                 continue;
             }
-            // A vertex on the way may be one of a constraint that leads elsewhere.
             let beyond = mesh.twin(e);
             let is_open = !mesh.is_fixed(e) && domains.is_inside(beyond.triangle());
-            if is_open && seen.insert(beyond.triangle()) {
+            if is_open && mesh.apex(beyond) != v && seen.insert(beyond.triangle()) {
                 edges.extend([beyond.next(), beyond.previous()]);
             }
-            let ends = [mesh.origin(e), mesh.destination(e)];
-            let fixed = ends.into_iter().flat_map(|end| self.fixed_spokes(end));
-            for one in fixed.filter(|&one| mesh.origin(one) != v && mesh.destination(one) != v) {
-                let near = nearest(q, self.segment(one));
-                let found = Found { width: (near[0] - q[0]).hypot(near[1] - q[1]), one, other: v };
-                if found.width > 0.0 && !self.meet(v, one) {
+            // The nearest place of a constraint is on this edge, or it is a vertex.
+            let own = mesh.is_fixed(e).then_some((e, width));
+            let ends = [mesh.origin(e), mesh.destination(e)].into_iter();
+            let near = ends.filter(|w| has_segment[w.index()] && distance(q, self.point(*w)) <= most);
+            let others = near.flat_map(|w| self.fixed_spokes(w)).map(|e| (e, width_of(e)));
+            for (one, width) in own.into_iter().chain(others) {
+                let most = best.map_or(limit, |best| best.width);
+                let is_own = mesh.origin(one) == v || mesh.destination(one) == v;
+                if !is_own && width > 0.0 && width <= most && !self.meet(v, one) {
+                    let found = Found { width, one, other: v };
                     best = Some(best.map_or(found, |best| self.narrower(best, found)));
                 }
             }
@@ -133,11 +155,13 @@ impl Constrained2 {
         let [a, b] = [mesh.origin(one), mesh.destination(one)];
         let is_small = |corner: VertexId, end: VertexId| {
             let [p, q, r] = [corner, v, end].map(|v| self.point(v));
-            let (u, w) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
-            u[0] * w[0] + u[1] * w[1] > COS_OF_MEETING * u[0].hypot(u[1]) * w[0].hypot(w[1])
+            let [u, w] = [unit(p, q), unit(p, r)];
+            u[0] * w[0] + u[1] * w[1] > COS_OF_MEETING
         };
         let is_joined = |corner: VertexId, end: VertexId| {
-            self.fixed_spokes(end).any(|e| mesh.destination(e) == corner) && is_small(corner, end)
+            corner != end
+                && is_small(corner, end)
+                && self.fixed_spokes(end).any(|e| mesh.destination(e) == corner)
         };
         // An end of the constraint is joined to its other end.
         let corners = self.fixed_spokes(v).map(|e| mesh.destination(e));
@@ -166,9 +190,18 @@ impl Constrained2 {
     }
 }
 
-/// The nearest place of a segment, rounded.
+/// The nearest place of a segment, rounded. No square overflows or vanishes.
 fn nearest(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
-    let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
-    let part = ((u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
-    [a[0] + part * u[0], a[1] + part * u[1]]
+    let way = unit(a, b);
+    let along = ((q[0] - a[0]) * way[0] + (q[1] - a[1]) * way[1]).clamp(0.0, distance(a, b));
+    [a[0] + along * way[0], a[1] + along * way[1]]
+}
+
+fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    (q[0] - p[0]).hypot(q[1] - p[1])
+}
+
+/// The direction from one place to another.
+fn unit(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|k| (q[k] - p[k]) / distance(p, q))
 }

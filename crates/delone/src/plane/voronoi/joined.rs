@@ -14,6 +14,9 @@ use super::cells::Cells2;
 use crate::ids::VertexId;
 use crate::sorting;
 
+/// The place of a vertex that is not on the way.
+const OFF: u32 = u32::MAX;
+
 impl Cells2 {
     /// The cells of groups of sites: the cell of a group is the union of those of its sites, and has the group's number for its site.
     /// Sites without a group have no part in any.
@@ -41,9 +44,10 @@ impl Cells2 {
                 sides.extend(side.filter(|[p, q]| p != q));
             }
         }
+        let mut on_way = vec![OFF; self.vertices.len()];
         let mut all = Self { starts: vec![0], vertices: self.vertices.clone(), ..Self::default() };
         for sides in of_groups {
-            let rings = self.rings_of(border_of(sides));
+            let rings = self.rings_of(border_of(&sides), &mut on_way);
             all.sites.push([all.starts.len() - 1, rings.len()].map(|n| n as u32));
             for ring in rings {
                 all.corners.extend(ring);
@@ -68,8 +72,8 @@ impl Cells2 {
         same
     }
 
-    /// Sides of a border as rings.
-    fn rings_of(&self, sides: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
+    /// Sides of a border as rings. For each vertex its place on the way that is followed, or [`OFF`], is kept between calls.
+    fn rings_of(&self, sides: Vec<[u32; 2]>, on_way: &mut [u32]) -> Vec<Vec<u32>> {
         let mut leaving: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for &[p, q] in &sides {
             leaving.entry(p).or_default().push(q);
@@ -77,20 +81,23 @@ impl Cells2 {
         let mut rings = Vec::new();
         for [start, _] in sides {
             let mut way: Vec<u32> = vec![start];
+            on_way[start as usize] = 0;
             while let Some(&at) = way.last() {
                 let before = way.len().checked_sub(2).map(|i| way[i]);
                 let Some(next) = leaving.get_mut(&at).and_then(|ends| self.take_next(before, at, ends))
                 else {
                     break;
                 };
-                match way.iter().rposition(|&p| p == next) {
-                    Some(first) => {
-                        rings.push(way.split_off(first));
-                        way.push(next);
-                    }
-                    None => way.push(next),
+                let first = on_way[next as usize];
+                if first < OFF {
+                    let ring = way.split_off(first as usize);
+                    ring.iter().for_each(|&p| on_way[p as usize] = OFF);
+                    rings.push(ring);
                 }
+                on_way[next as usize] = way.len() as u32;
+                way.push(next);
             }
+            way.iter().for_each(|&p| on_way[p as usize] = OFF);
         }
         rings
     }
@@ -111,10 +118,9 @@ impl Cells2 {
 }
 
 /// The sides that are not there in the other direction as well.
-fn border_of(mut sides: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
-    sides.sort_unstable();
+fn border_of(sides: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut counts: BTreeMap<[u32; 2], i32> = BTreeMap::new();
-    for &[p, q] in &sides {
+    for &[p, q] in sides {
         *counts.entry([p.min(q), p.max(q)]).or_insert(0) += if p < q { 1 } else { -1 };
     }
     let mut border = Vec::new();

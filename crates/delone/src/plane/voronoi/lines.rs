@@ -4,7 +4,7 @@
 //!
 //! - as long as another site is in the circle on it: without any the piece is in the cells of its ends, and no border crosses it;
 //! - as long as one of its ends is the site of another line;
-//! - as long as a border beside it is farther than half of the tolerance from where both lines are equally far away. This is measured at both
+//! - as long as a border beside it is farther than half of the tolerance from the exact bisector of both lines. This is measured at both
 //!   ends and in the middle of each side of the border, by the distances from the pieces themselves.
 //!
 //! A piece of length h is nearer than its ends by at most h^2 / 8d at the distance d, and the border moves by at most h^2 / 8g, where g is the
@@ -25,6 +25,7 @@ use crate::plane::constrained::{Constrained2, Crossings, SegmentId};
 use crate::plane::delaunay::Delaunay2;
 use crate::plane::region::Region2;
 use crate::points::Position2;
+use crate::sorting;
 
 /// A piece is not divided that is shorter than this part of the tolerance.
 const LEAST_PIECE: f64 = 0.5;
@@ -59,7 +60,7 @@ pub struct LineCells2 {
     pub lines: Vec<usize>,
     /// How often all sites were triangulated.
     pub rounds: usize,
-    /// The largest distance of a border from where both lines are equally far away, as measured beside pieces that could be divided.
+    /// The largest distance of a border from the exact bisector of both lines, as measured beside pieces that could be divided.
     /// Rounded, in coordinate units.
     pub deviation: f64,
     /// Pieces of lines that several lines share: they belong to the one of the least number.
@@ -183,7 +184,7 @@ pub(super) struct Round<'a> {
     d: &'a Delaunay2,
     region: &'a Region2,
     borders: Borders,
-    /// The pieces at each site.
+    /// The pieces of its line at each site.
     at_sites: Vec<Vec<usize>>,
 }
 
@@ -197,14 +198,17 @@ impl<'a> Round<'a> {
     ) -> Self {
         let mut at_sites: Vec<Vec<usize>> = vec![Vec::new(); made.sites.len()];
         for (number, piece) in pieces.iter().enumerate() {
-            piece.ends.into_iter().for_each(|site| at_sites[site].push(number));
+            let own = piece.ends.into_iter().filter(|&site| made.lines[site] == piece.line);
+            own.for_each(|site| at_sites[site].push(number));
         }
         Self { made, pieces, d, region, borders, at_sites }
     }
 
     /// The pieces that must be divided, and the largest deviation of a border.
     fn run(&self) -> (Vec<usize>, f64) {
-        let mut marked: Vec<usize> = (0..self.pieces.len()).filter(|&piece| self.is_crossed(piece)).collect();
+        let clear = self.clear_pieces();
+        let may_be_crossed = (0..self.pieces.len()).filter(|&piece| !clear[piece]);
+        let mut marked: Vec<usize> = may_be_crossed.filter(|&piece| self.may_be_divided(piece)).collect();
         let mut deviation: f64 = 0.0;
         let mesh = self.d.mesh();
         for e in mesh.undirected_edges() {
@@ -273,34 +277,39 @@ impl<'a> Round<'a> {
         middle != a && middle != b && self.length(piece) > LEAST_PIECE * self.borders.tolerance
     }
 
-    /// Whether a site is in the circle on a piece, or the piece is no edge, or an end is the site of another line, and it can be divided.
-    fn is_crossed(&self, piece: usize) -> bool {
-        let Piece { ends, line } = self.pieces[piece];
-        let is_own = ends.iter().all(|&site| self.made.lines[site] == line);
-        let [v, w] = ends.map(VertexId::new);
+    /// For each piece, whether it is an edge with no site in the circle on it, and both ends are sites of its line.
+    fn clear_pieces(&self) -> Vec<bool> {
         let mesh = self.d.mesh();
-        let [a, b] = ends.map(|site| self.made.sites[site]);
-        let is_in_circle =
-            |site: VertexId| !site.is_ghost() && angle(self.made.sites[site.index()], a, b).is_negative();
-        let is_clear = match mesh.star(v).find(|&e| mesh.destination(e) == w) {
-            Some(e) => !is_in_circle(mesh.apex(e)) && !is_in_circle(mesh.apex(mesh.twin(e))),
-            None => false,
-        };
-        !(is_own && is_clear) && self.may_be_divided(piece)
+        let sorted = |[v, w]: [usize; 2]| [v.min(w), v.max(w)];
+        let mut order: Vec<usize> = (0..self.pieces.len()).collect();
+        sorting::by(&mut order, |&i, &j| sorted(self.pieces[i].ends).cmp(&sorted(self.pieces[j].ends)));
+        let mut is_clear = vec![false; self.pieces.len()];
+        for e in mesh.undirected_edges() {
+            let ends = sorted([mesh.origin(e), mesh.destination(e)].map(VertexId::index));
+            let found = order.binary_search_by(|&piece| sorted(self.pieces[piece].ends).cmp(&ends));
+            let Ok(piece) = found.map(|at| order[at]) else { continue };
+            let [a, b] = ends.map(|site| self.made.sites[site]);
+            let is_in_circle =
+                |site: VertexId| !site.is_ghost() && angle(self.made.sites[site.index()], a, b).is_negative();
+            let is_own = ends.iter().all(|&site| self.made.lines[site] == self.pieces[piece].line);
+            is_clear[piece] = is_own && ![e, mesh.twin(e)].into_iter().any(|e| is_in_circle(mesh.apex(e)));
+        }
+        is_clear
     }
 
     /// The nearest place to a point on the pieces at a site, and the piece, unless it is the site.
     pub(super) fn nearest(&self, at: [f64; 2], site: usize) -> ([f64; 2], Option<usize>) {
         let own = self.made.sites[site];
-        let square = |p: [f64; 2]| (p[0] - at[0]) * (p[0] - at[0]) + (p[1] - at[1]) * (p[1] - at[1]);
+        // No square overflows or vanishes.
+        let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
         let mut best = (own, None);
-        let line = self.made.lines[site];
-        for &piece in self.at_sites[site].iter().filter(|&&piece| self.pieces[piece].line == line) {
+        for &piece in &self.at_sites[site] {
             let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
-            let (u, w) = ([b[0] - a[0], b[1] - a[1]], [at[0] - a[0], at[1] - a[1]]);
-            let part = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
-            let place = [a[0] + part * u[0], a[1] + part * u[1]];
-            if (0.0..=1.0).contains(&part) && square(place) < square(best.0) {
+            let length = self.length(piece);
+            let way = [0, 1].map(|k| (b[k] - a[k]) / length);
+            let along = way[0] * (at[0] - a[0]) + way[1] * (at[1] - a[1]);
+            let place = [a[0] + along * way[0], a[1] + along * way[1]];
+            if (0.0..=length).contains(&along) && distance(place) < distance(best.0) {
                 best = (place, Some(piece));
             }
         }
@@ -333,7 +342,7 @@ impl<'a> Round<'a> {
     }
 }
 
-/// How far a place is from where two others are equally far away, to first order, and the cosine of the angle that it sees them under. Nothing
+/// How far a place is from the bisector of two others, to first order, and the cosine of the angle that it sees them under. Nothing
 /// if these are one place.
 pub(super) fn deviation_at(at: [f64; 2], near: [[f64; 2]; 2]) -> Option<(f64, f64)> {
     let ways = near.map(|p| [p[0] - at[0], p[1] - at[1]]);

@@ -49,7 +49,7 @@ pub struct MedialAxis2 {
     pub triangles: Vec<TriangleId>,
     /// How many sites there are along the border.
     pub sites: usize,
-    /// The largest distance of a piece from where both sides of the border are equally far away, as measured beside pieces of the border that
+    /// The largest distance of a piece from the exact bisector of both sides of the border, as measured beside pieces of the border that
     /// could be divided. Rounded, in coordinate units.
     pub deviation: f64,
 }
