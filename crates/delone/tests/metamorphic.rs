@@ -12,6 +12,7 @@ use delone::{
 use delone_generators::{Kind, Random};
 use delone_oracle::share;
 
+mod lines;
 mod meshes;
 
 use meshes::{coarse, curved, kept, refined, segments};
@@ -234,6 +235,9 @@ const PLANE: &[Operation<2>] = &[
         c.constraints().for_each(|e| outcome.set(e.map(|v| c.point(v)).to_vec()));
         outcome
     }),
+    ("welded segments", lines::welded),
+    ("cells of segments", lines::cells),
+    ("medial axis", lines::axis),
     ("mesh by angle", |set| refined(set, Refinement::new().min_angle(25.0))),
     ("mesh of circumcenters", |set| {
         refined(set, Refinement::new().min_angle(25.0).placement(Placement::Circumcenter))

@@ -57,6 +57,8 @@ pub(crate) enum Mode {
     Cells3,
     /// Segments between points: building, crossings, changes.
     Graphs,
+    /// Segments that are welded, and their cells.
+    Outlines,
     /// Refinement of graphs: bounds of angles and sizes, what is kept, orders of the input.
     Mesh,
     /// Surfaces over points: interpolation, rasters, contours, thinning.
@@ -121,7 +123,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// The modes that `all` runs.
-    pub(crate) const REAL: [Self; 27] = [
+    pub(crate) const REAL: [Self; 28] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -129,6 +131,7 @@ impl Mode {
         Self::Cells,
         Self::Cells3,
         Self::Graphs,
+        Self::Outlines,
         Self::Mesh,
         Self::Surfaces,
         Self::Tiles,

@@ -8,7 +8,7 @@ use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
     alphas, broken, cells, cells3, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders,
-    periodic, plane, predicates, program, proximity, space, surfaces, tiles, weights,
+    outlines, periodic, plane, predicates, program, proximity, space, surfaces, tiles, weights,
 };
 
 /// An input of some attack.
@@ -72,6 +72,8 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Cells3, _) => made::<cells3::Cells3d>(seed),
         (Mode::Graphs, 0) => made::<graphs::Graphs>(seed),
         (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
+        (Mode::Outlines, 0) => made::<outlines::Welds>(seed),
+        (Mode::Outlines, _) => made::<outlines::Cells>(seed),
         (Mode::Mesh, _) => made::<mesh::Mesh>(seed),
         (Mode::Alphas, 0) => made::<alphas::Planar>(seed),
         (Mode::Alphas, _) => made::<alphas::Spatial>(seed),

@@ -14,6 +14,7 @@ pub(crate) mod mesh;
 pub(crate) mod mixtures;
 pub(crate) mod motion;
 pub(crate) mod orders;
+pub(crate) mod outlines;
 pub(crate) mod periodic;
 pub(crate) mod plane;
 pub(crate) mod predicates;
