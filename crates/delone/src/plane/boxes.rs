@@ -2,8 +2,6 @@
 //!
 //! Cost: O(n log n) to build, O(log n) for each box that is asked for and each that is found, if few overlap.
 
-use crate::sorting;
-
 /// The least and greatest coordinates.
 pub(in crate::plane) type Span = [[f64; 2]; 2];
 
@@ -27,6 +25,12 @@ pub(in crate::plane) fn span(points: &[[f64; 2]]) -> Span {
     [of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max)]
 }
 
+/// The box around two.
+fn around(one: &Span, other: &Span) -> Span {
+    let of = |end: usize, pick: fn(f64, f64) -> f64| [0, 1].map(|k| pick(one[end][k], other[end][k]));
+    [of(0, f64::min), of(1, f64::max)]
+}
+
 fn meet(one: &Span, other: &Span) -> bool {
     (0..2).all(|k| one[0][k] <= other[1][k] && other[0][k] <= one[1][k])
 }
@@ -39,10 +43,10 @@ impl Boxes {
         boxes
     }
 
+    /// Orders a range of boxes by halves. Gives the box around it.
     fn part(&mut self, node: usize, low: usize, high: usize) {
-        let corners: Vec<[f64; 2]> =
-            self.order[low..high].iter().flat_map(|&k| self.spans[k as usize]).collect();
-        let own = span(&corners);
+        let range = &mut self.order[low..high];
+        let own = range.iter().fold(span(&[]), |all, &k| around(&all, &self.spans[k as usize]));
         if self.around.len() <= node {
             self.around.resize(node + 1, span(&[]));
         }
@@ -51,29 +55,31 @@ impl Boxes {
             return;
         }
         let axis = usize::from(own[1][1] - own[0][1] > own[1][0] - own[0][0]);
+        let half = (high - low) / 2;
         let spans = &self.spans;
         let middle = |k: &u32| 0.5 * spans[*k as usize][0][axis] + 0.5 * spans[*k as usize][1][axis];
-        sorting::by(&mut self.order[low..high], |p, q| middle(p).total_cmp(&middle(q)));
-        let half = low + (high - low) / 2;
-        self.part(2 * node + 1, low, half);
-        self.part(2 * node + 2, half, high);
+        range.select_nth_unstable_by(half, |p, q| middle(p).total_cmp(&middle(q)));
+        self.part(2 * node + 1, low, low + half);
+        self.part(2 * node + 2, low + half, high);
     }
 
     /// Tells the boxes that meet a box, by index.
     pub(in crate::plane) fn each(&self, asked: &Span, mut each: impl FnMut(usize)) {
-        let mut rest = vec![(0, 0, self.spans.len())];
-        while let Some((node, low, high)) = rest.pop() {
-            if !meet(&self.around[node], asked) {
-                continue;
-            }
-            if high - low <= LEAF_BOXES {
-                let found = self.order[low..high].iter().map(|&k| k as usize);
-                found.filter(|&k| meet(&self.spans[k], asked)).for_each(&mut each);
-                continue;
-            }
-            let half = low + (high - low) / 2;
-            rest.extend([(2 * node + 1, low, half), (2 * node + 2, half, high)]);
+        self.each_of(asked, (0, 0, self.spans.len()), &mut each);
+    }
+
+    fn each_of(&self, asked: &Span, (node, low, high): (usize, usize, usize), each: &mut impl FnMut(usize)) {
+        if !meet(&self.around[node], asked) {
+            return;
         }
+        if high - low <= LEAF_BOXES {
+            let found = self.order[low..high].iter().map(|&k| k as usize);
+            found.filter(|&k| meet(&self.spans[k], asked)).for_each(each);
+            return;
+        }
+        let half = low + (high - low) / 2;
+        self.each_of(asked, (2 * node + 2, half, high), each);
+        self.each_of(asked, (2 * node + 1, low, half), each);
     }
 }
 

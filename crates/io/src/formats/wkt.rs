@@ -130,12 +130,13 @@ impl<'a> Reader<'a> {
     /// The number of a system that stands before a geometry.
     fn system(&mut self) -> Option<u32> {
         const NAME: &str = "SRID=";
-        let name = self.rest.get(..NAME.len())?;
-        let (number, after) = self.rest[NAME.len()..].split_once(';')?;
-        if !name.eq_ignore_ascii_case(NAME) || number.len() > 20 {
-            return None;
-        }
-        self.rest = after.trim_start();
+        /// Longer numbers are none. Without a limit all that follows would be searched, for each geometry.
+        const NUMBER_BYTES: usize = 20;
+        self.rest.get(..NAME.len()).filter(|name| name.eq_ignore_ascii_case(NAME))?;
+        let after = &self.rest[NAME.len()..];
+        let end = after.bytes().take(NUMBER_BYTES + 1).position(|byte| byte == b';')?;
+        let number = &after[..end];
+        self.rest = after[end + 1..].trim_start();
         number.trim().parse().ok()
     }
 
@@ -394,6 +395,14 @@ mod tests {
         for text in ["points", "Point", "Point Number", "POINT_X", "Polygon"] {
             assert!(!is_geometry(text), "{text}");
         }
+    }
+
+    /// Minutes, if each line were to search all that follow.
+    #[test]
+    fn many_geometries_are_read_in_one_pass() {
+        let text = "LINESTRING (0 0, 1 2)\n".repeat(300_000);
+        let shapes = read(Box::new(Cursor::new(text)), &ReadOptions::default()).expect("lines");
+        assert_eq!(shapes.len(), 600_000);
     }
 
     #[test]

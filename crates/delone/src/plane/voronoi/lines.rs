@@ -60,8 +60,8 @@ pub struct LineCells2 {
     pub lines: Vec<usize>,
     /// How often all sites were triangulated.
     pub rounds: usize,
-    /// The largest distance of a border from the exact bisector of both lines, as measured beside pieces that could be divided.
-    /// Rounded, in coordinate units.
+    /// The largest distance of a border from the exact bisector of both lines, as measured at both ends and in the middle of each side.
+    /// Beside pieces that are too short to be divided at most their length. Rounded, in coordinate units.
     pub deviation: f64,
     /// Pieces of lines that several lines share: they belong to the one of the least number.
     pub shared: usize,
@@ -231,9 +231,11 @@ impl<'a> Round<'a> {
                     .filter_map(|near| near.1)
                     .filter(|&piece| self.may_be_divided(piece))
                     .collect();
-                if !divided.is_empty() {
-                    deviation = deviation.max(off);
-                }
+                let whole = near.iter().filter_map(|near| near.1).filter(|piece| !divided.contains(piece));
+                let longest = whole.map(|piece| self.length(piece)).reduce(f64::max);
+                // Where lines cross at a small angle, the measure is too large: borders stay between the lines.
+                let off_there = if divided.is_empty() { off.min(longest.unwrap_or(off)) } else { off };
+                deviation = deviation.max(off_there);
                 if off > MEASURED_PART * self.borders.tolerance {
                     marked.extend(divided);
                 }
