@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use delone::{
-    Bounds, Constrained2, Crossings, Delaunay2, Fill, LineCells2, Overlaps2, PolygonRegion2, SegmentId,
+    Bounds, Constrained2, Crossings, Delaunay2, Fill, LineCells2, Membership2, Overlaps2, PolygonRegion2,
+    SegmentId,
 };
 use delone_io::{Format, Graph, LineDiagram, Rows};
 
@@ -51,7 +52,7 @@ pub(crate) fn run(
     let lines = Lines::of(&graph, args.of);
     stats.phase("read");
     if args.of == OfName::Areas {
-        refuse_overlaps(&graph, &lines, &label)?;
+        tell_overlaps(&graph, &lines, &label, quiet)?;
     }
     let given: Delaunay2 = room::build(&graph.cloud.xy, Delaunay2::FASTEST, &label, quiet)?;
     let region = if is_polygon(args) { polygon_region(args, &rings)? } else { region(args, &given)? };
@@ -61,11 +62,12 @@ pub(crate) fn run(
         let segments: Vec<[usize; 2]> = lines.segments.iter().map(|&s| graph.segments[s]).collect();
         let tolerance = if args.tolerance > 0.0 { args.tolerance } else { tolerance_of(&region.bounds()) };
         stats.set("tolerance", tolerance);
-        LineCells2::new(&graph.cloud.xy, &segments, &lines.of_segments, &region, tolerance)
+        let make = if args.of == OfName::Areas { LineCells2::of_areas } else { LineCells2::new };
+        make(&graph.cloud.xy, &segments, &lines.of_segments, &region, tolerance)
             .map_err(|error| Failure::graph(&label, &error))?
     };
     stats.phase("build");
-    if made.shared > 0 {
+    if made.shared > 0 && args.of != OfName::Areas {
         let shared = grouped(made.shared as u64);
         note(quiet, format_args!("pieces that several lines share: {shared}; the first line has them"));
     }
@@ -101,9 +103,7 @@ pub(crate) fn run(
 
 /// Tells what is no line.
 pub(crate) fn tell_left(graph: &Graph, quiet: bool) {
-    let mut ends = vec![false; graph.cloud.xy.len()];
-    graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
-    if ends.contains(&false) {
+    if graph.lone_points().contains(&true) {
         lost(quiet, "points without a line are left out");
     }
     if !graph.arcs.is_empty() {
@@ -171,28 +171,29 @@ impl Lines {
     }
 }
 
-/// Areas that overlap or share sides have no cells of their own there.
-fn refuse_overlaps(graph: &Graph, lines: &Lines, label: &Path) -> Result<(), Failure> {
-    let help = "cells of areas are for areas that touch in points at most; --of lines takes their borders";
-    let refused = |what: String| Failure::new(format!("{}: {what}", label.display()), help);
+/// Tells of areas that overlap: the first one has the places in several.
+fn tell_overlaps(graph: &Graph, lines: &Lines, label: &Path, quiet: bool) -> Result<(), Failure> {
+    let failed = |error| Failure::graph(label, &error);
     let segments: Vec<[usize; 2]> = lines.segments.iter().map(|&s| graph.segments[s]).collect();
-    let c = Constrained2::with_crossings(&graph.cloud.xy, &segments, Crossings::Refuse)
-        .map_err(|error| refused(error.to_string()))?;
+    let c = Constrained2::with_crossings(&graph.cloud.xy, &segments, Crossings::Split).map_err(failed)?;
     let line = |segment: SegmentId| lines.of_segments[segment.index()];
-    for e in c.constraint_edges() {
-        let covering = c.covering(e);
-        let first = covering.first().map(|one| line(one.segment));
-        if let Some(other) = covering.iter().map(|one| line(one.segment)).find(|&other| Some(other) != first)
-        {
-            let first = first.unwrap_or_default();
-            return Err(refused(format!("areas {first} and {other} share a side")));
-        }
-    }
-    let mut domains = c.domains(&Fill::All).map_err(|error| Failure::graph(label, &error))?;
+    let mut domains = c.domains(&Fill::All).map_err(failed)?;
     let regions = vec![PolygonRegion2::new(0.0); lines.rows.len()];
-    let all = c.claim_polygons_as(&mut domains, |s| Some(line(s)), &regions, Overlaps2::Combined);
-    match all.first().map(Vec::as_slice) {
-        Some([first, second, ..]) => Err(refused(format!("areas {first} and {second} overlap"))),
-        _ => Ok(()),
+    let all = c.claim_polygons_as(
+        &mut domains,
+        |s| Some(line(s)),
+        &regions,
+        Overlaps2::Combined,
+        Membership2::EvenOdd,
+    );
+    if let Some([first, second, ..]) = all.first().map(Vec::as_slice) {
+        let count = grouped(all.len() as u64);
+        lost(
+            quiet,
+            format_args!(
+                "areas overlap in {count} places, such as {first} and {second}: the first has the place"
+            ),
+        );
     }
+    Ok(())
 }

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use delone::{Constrained2, Crossings, Fill, MedialAxis2};
+use delone::{Constrained2, Crossings, MedialAxis2};
 use delone_io::{Edges, Format, write_edges};
 
 use crate::antimeridian;
 use crate::args::VoronoiArgs;
+use crate::constrained::features::shells_of;
 use crate::files;
 use crate::lines::{tell_left, tolerance_of};
 use crate::message::{Failure, grouped, say};
@@ -31,7 +32,11 @@ pub(crate) fn run(
     let sides = graph.rings.iter().flat_map(|ring| &graph.segments[ring.segments.clone()]);
     let sides: Vec<[usize; 2]> = sides.copied().collect();
     let c = Constrained2::with_crossings(&graph.cloud.xy, &sides, Crossings::Split).map_err(refused)?;
-    let domains = c.domains(&Fill::EvenOdd).map_err(refused)?;
+    // Where polygons overlap, the borders of all count.
+    let rings = graph.rings.iter().enumerate();
+    let ring_of: Vec<usize> =
+        rings.flat_map(|(number, ring)| std::iter::repeat_n(number, ring.segments.len())).collect();
+    let domains = c.shells_minus_holes(|s| ring_of.get(s.index()).copied(), &shells_of(&graph));
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { tolerance_of(&graph.cloud.xy) };
     stats.set("tolerance", tolerance);
     let axis = {

@@ -31,9 +31,7 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     if graph.is_border.contains(&false) {
         lost(quiet, "lines are left out: they are no polygons");
     }
-    let mut ends = vec![false; graph.cloud.xy.len()];
-    graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
-    if ends.contains(&false) {
+    if graph.lone_points().contains(&true) {
         lost(quiet, "points are left out: they are no polygons");
     }
     stats.phase("read");

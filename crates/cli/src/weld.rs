@@ -25,6 +25,7 @@ pub(crate) fn weld(
     let welded = Weld2::new(&graph.cloud.xy, &graph.segments, tolerance)
         .map_err(|error| Failure::graph(label, &error))?;
     let given = graph.cloud.xy.clone();
+    graph.lone = Some(graph.lone_points());
     for (p, &to) in graph.cloud.xy.iter_mut().zip(&welded.stays) {
         *p = given[to];
     }

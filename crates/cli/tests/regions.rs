@@ -22,7 +22,7 @@ fn triangles(of: &Value) -> Vec<(String, u64, [[f64; 2]; 3])> {
     let of = |feature: &Value| {
         let ring = &feature["geometry"]["coordinates"][0];
         let name = feature["properties"]["m"].as_str().unwrap_or_default().to_owned();
-        let region = feature["properties"]["region"].as_f64().expect("a region") as u64;
+        let region = feature["properties"]["region"].as_f64().unwrap_or(0.0) as u64;
         (name, region, [0, 1, 2].map(|k| corner(&ring[k])))
     };
     features.iter().map(of).collect()
@@ -117,5 +117,37 @@ fn an_attribute_that_is_no_size_is_named() {
         assert_eq!(output.status.code(), Some(status), "{option}");
         assert!(text(&output.stderr).contains(expected), "{}", text(&output.stderr));
         assert!(!place.path("t.obj").exists());
+    }
+}
+
+/// Parts of a feature that overlap, a ring that crosses itself: by these rules all of it is inside, and has the attributes of the feature.
+#[test]
+fn parts_that_overlap_have_the_attributes_of_their_feature() {
+    let place = Place::new();
+    let polygons = [
+        (
+            "nonzero",
+            "MultiPolygon",
+            "[[[[0,0],[4,0],[4,4],[0,4],[0,0]]],[[[2,2],[6,2],[6,6],[2,6],[2,2]]]]",
+            28.0,
+        ),
+        (
+            "shells-minus-holes",
+            "MultiPolygon",
+            "[[[[0,0],[4,0],[4,4],[0,4],[0,0]]],[[[2,2],[2,6],[6,6],[6,2],[2,2]]]]",
+            28.0,
+        ),
+        ("nonzero", "Polygon", "[[[0,0],[6,0],[6,4],[2,4],[2,2],[4,2],[4,6],[0,6],[0,0]]]", 32.0),
+    ];
+    for (fill, kind, coordinates, whole) in polygons {
+        let feature = format!(
+            r#"{{"type":"Feature","properties":{{"m":"one"}},"geometry":{{"type":"{kind}","coordinates":{coordinates}}}}}"#
+        );
+        place.file("one.geojson", feature);
+        place.succeed(&format!("mesh one.geojson --crossings split --fill {fill} -o t.geojson"));
+        let found = triangles(&json(&place, "t.geojson"));
+        assert!(found.iter().all(|(name, ..)| name == "one"), "{fill} {kind}");
+        let area: f64 = found.iter().map(|(_, _, corners)| area(*corners)).sum();
+        assert!((area - whole).abs() < 1e-9, "{fill} {kind}: {area}");
     }
 }

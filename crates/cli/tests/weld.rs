@@ -128,3 +128,22 @@ fn a_gap_that_is_too_narrow_is_told() {
     assert!(stats(&place)["left"]["short"].as_u64().expect("a count") > 0);
     assert!(stats(&place)["points"].as_u64().expect("a count") < 500);
 }
+
+/// Points that became another one are no lone points of the input.
+#[test]
+fn welded_points_are_not_told_as_left_out() {
+    let place = Place::new();
+    let square = |x: f64, name: &str| {
+        format!(
+            r#"{{"type":"Feature","properties":{{"m":"{name}"}},"geometry":{{"type":"Polygon","coordinates":[[[{x},0],[{0},0],[{0},1],[{x},1],[{x},0]]]}}}}"#,
+            x + 1.0
+        )
+    };
+    let two = [square(0.0, "a"), square(1.000_000_1, "b")].join(",");
+    place.file("two.geojson", format!(r#"{{"type":"FeatureCollection","features":[{two}]}}"#));
+    for command in ["polygons", "mesh", "triangulate", "voronoi --of areas"] {
+        let output = place.run(&format!("{command} two.geojson --strict --weld 1e-6 -o o.geojson"));
+        assert!(output.status.success(), "{command}: {}", text(&output.stderr));
+        assert!(!text(&output.stderr).contains("are left out"), "{command}: {}", text(&output.stderr));
+    }
+}

@@ -169,8 +169,8 @@ pub use plane::check::Flaw2;
 pub use plane::{
     Algorithm2, AllQuads2, Arc2, Cell2, Cells2, Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2,
     Crossings, Delaunay2, DiskEdges2, Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Gap2, Hints2,
-    Jacobian2, Keep, LayerReport2, Layers2, LineCells2, Location2, MedialAxis2, Middle2, Moving2,
-    NearestSites2, OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Overlaps2, Part2, Placement,
+    Jacobian2, Keep, LayerReport2, Layers2, LineCells2, Location2, MedialAxis2, Membership2, Middle2,
+    Moving2, NearestSites2, OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Overlaps2, Part2, Placement,
     PolygonRegion2, PolygonTriangles2, Polygons2, Power2, Prescribed2, Quads2, Reason, Refined2, Refinement,
     RefinementReport2, Region2, RegionSeed2, Regular2, Relaxation2, Ring, RingFill, Seeds2, SegmentEnds,
     SegmentId, Shapes2, Step2, Unrefined2, Voronoi2, VoronoiEdge2, Weld2, arcs_over_shared_chords,

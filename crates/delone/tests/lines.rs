@@ -28,6 +28,8 @@ fn chains(seed: u64, count: usize) -> Lines {
 fn distance(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
     let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
     let part = ((u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
+    // Of a segment without a length it is no number.
+    let part = if part.is_nan() { 0.0 } else { part };
     (q[0] - a[0] - part * u[0]).hypot(q[1] - a[1] - part * u[1])
 }
 
@@ -110,7 +112,94 @@ fn lines_may_overlap_and_cross() {
     let none = LineCells2::new::<[f64; 2]>(&[], &[], &[], &region(), 0.01).expect("no cell");
     assert_eq!((none.sites.len(), none.rounds), (0, 1));
     let point = LineCells2::new(&[[0.0, 0.0]], &[[0, 0]], &[0], &region(), 0.01).expect("no length");
-    assert_eq!(point.sites.len(), 0);
+    assert_eq!((point.sites.len(), point.cells.area(VertexId::new(0))), (1, 4.0));
+}
+
+/// By how much more than the tolerance, at most, places are farther from their line than from the nearest one; and the areas in all.
+fn worst(made: &LineCells2, lines: &[Vec<[f64; 2]>], [low, high]: [[f64; 2]; 2]) -> (f64, f64) {
+    let mut random = Random::new(7);
+    let mut worst: f64 = 0.0;
+    for _ in 0..2000 {
+        let q = [0, 1].map(|k| low[k] + (high[k] - low[k]) * random.unit());
+        let from = |line: &Vec<[f64; 2]>| {
+            line.windows(2).map(|two| distance(q, [two[0], two[1]])).fold(f64::INFINITY, f64::min)
+        };
+        let distances: Vec<f64> = lines.iter().map(from).collect();
+        let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+        let owners: Vec<usize> = (0..lines.len()).filter(|&line| is_in(made, line, q)).collect();
+        assert_eq!(owners.len(), 1, "{q:?}");
+        worst = worst.max(distances[owners[0]] - least);
+    }
+    (worst, (0..lines.len()).map(|line| made.cells.area(VertexId::new(line))).sum())
+}
+
+/// Points, segments and the line of each.
+fn parts(lines: &[Vec<[f64; 2]>]) -> Lines {
+    let (mut points, mut segments, mut of) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, line) in lines.iter().enumerate() {
+        let first = points.len();
+        points.extend(line);
+        segments.extend((first + 1..points.len()).map(|i| [i - 1, i]));
+        of.resize(segments.len(), number);
+    }
+    (points, segments, of)
+}
+
+/// Cells that no site tells of at first: they come in over the rim, or from pieces whose ends are far away.
+#[test]
+fn cells_are_found_beyond_the_rim() {
+    let cases: [(&[&[[f64; 2]]], [[f64; 2]; 2]); 3] = [
+        (&[&[[3.0, 3.0], [4.0, 4.0]], &[[2.0, 3.0], [1.0, 8.0]]], [[3.0, 3.0], [6.0, 6.0]]),
+        (&[&[[5.0, 0.0], [5.0, 6.0]], &[[0.0, 7.0], [4.0, 8.0]]], [[3.0, 3.0], [6.0, 6.0]]),
+        (
+            &[&[[0.0, 2.0], [0.0, 4.0], [0.0, 0.0]], &[[3.0, 2.0], [0.0, 0.0]], &[[1.0, 2.0], [0.0, 4.0]]],
+            [[-5.0, -3.0], [8.0, 11.0]],
+        ),
+    ];
+    let mut random = Random::new(59);
+    let any = |random: &mut Random| [(); 2].map(|()| random.below(9) as f64);
+    let drawn = (0..60).map(|k| {
+        let lines: Vec<Vec<[f64; 2]>> =
+            (0..2 + k % 3).map(|_| (0..2 + k % 2).map(|_| any(&mut random)).collect()).collect();
+        (lines, [[3.0, 3.0], [6.0, 6.0]])
+    });
+    let given = cases.map(|(lines, bounds)| (lines.iter().map(|line| line.to_vec()).collect(), bounds));
+    for (lines, bounds) in given.into_iter().chain(drawn) {
+        let (points, segments, of) = parts(&lines);
+        let region = Region2::rectangle(bounds[0], bounds[1]).expect("a box");
+        for tolerance in [0.05, 0.01] {
+            let made = LineCells2::new(&points, &segments, &of, &region, tolerance).expect("cells");
+            let (more, area) = worst(&made, &lines, bounds);
+            let whole = (bounds[1][0] - bounds[0][0]) * (bounds[1][1] - bounds[0][1]);
+            assert!(more <= 2.0 * tolerance && (area / whole - 1.0).abs() < 1e-9, "{more} {lines:?}");
+        }
+    }
+}
+
+/// However near another area is, and whatever it shares.
+#[test]
+fn the_inside_of_an_area_is_its_own() {
+    let square =
+        |x: f64, y: f64, size: f64| vec![[x, y], [x + size, y], [x + size, y + size], [x, y + size], [x, y]];
+    let bounds = [[-1.0, -1.0], [3.0, 3.0]];
+    let region = Region2::rectangle(bounds[0], bounds[1]).expect("a box");
+    for gap in [0.0, 1e-16, 1e-12, 1e-9, 1e-6, 1e-3, 0.1] {
+        let lines = [square(0.0, 0.0, 1.0), square(1.0 + gap, 0.3, 0.5)];
+        let (points, segments, of) = parts(&lines);
+        for tolerance in [0.02, 0.005] {
+            let made = LineCells2::of_areas(&points, &segments, &of, &region, tolerance).expect("cells");
+            let mut random = Random::new(3);
+            for _ in 0..500 {
+                let q = [random.unit(), random.unit()];
+                let beside = [1.0 + gap + 0.5 * q[0], 0.3 + 0.5 * q[1]];
+                assert!(is_in(&made, 0, q) && !is_in(&made, 1, q), "{q:?} {gap}");
+                assert!(is_in(&made, 1, beside) && !is_in(&made, 0, beside), "{beside:?} {gap}");
+            }
+            let areas = [0, 1].map(|area| made.cells.area(VertexId::new(area)));
+            assert!((areas[0] + areas[1] - 16.0).abs() < 1e-9, "{areas:?}");
+            assert!(made.cells.rings(VertexId::new(0)).count() == 1, "{gap}");
+        }
+    }
 }
 
 /// All ends of the second line are those of others.

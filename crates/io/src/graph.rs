@@ -20,6 +20,8 @@ pub struct Graph {
     pub segments: Vec<[usize; 2]>,
     /// For each segment, whether it bounds an area: rings of polygons and the segments of `.poly` files do, lines do not.
     pub is_border: Vec<bool>,
+    /// Which points had no segment before welding, if there was any: points that became another one have none after it.
+    pub lone: Option<Vec<bool>>,
     /// The row of each segment's attributes ([`Cloud::features`]), where it is not that of the point that the segment starts at.
     pub rows: Option<Vec<Option<usize>>>,
     /// The segments that are chords of arcs, by increasing index, with the centers of their circles.
@@ -82,6 +84,16 @@ impl Graph {
     /// Points without segments.
     pub fn of_points(cloud: Cloud) -> Self {
         Self { cloud, ..Self::default() }
+    }
+
+    /// For each point whether no segment ends at it; of a welded graph whether none did before.
+    pub fn lone_points(&self) -> Vec<bool> {
+        if let Some(lone) = &self.lone {
+            return lone.clone();
+        }
+        let mut lone = vec![true; self.cloud.xy.len()];
+        self.segments.as_flattened().iter().for_each(|&end| lone[end] = false);
+        lone
     }
 
     /// The row of a ring's attributes ([`Cloud::features`]), if it has any.

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use delone::{Constrained2, Domains2, EdgeId, Location2};
+use delone::{Constrained2, Domains2, EdgeId, Location2, SegmentId};
 use delone_io::Graph;
 
 use super::regions::Regions;
@@ -23,6 +23,16 @@ pub(super) fn leave_far_seeds(c: &Constrained2, graph: &mut Graph, quiet: bool) 
     }
 }
 
+/// The shell of each ring: of a shell, itself.
+pub(crate) fn shells_of(graph: &Graph) -> Vec<usize> {
+    let mut shells: Vec<usize> = Vec::with_capacity(graph.rings.len());
+    for (number, ring) in graph.rings.iter().enumerate() {
+        let is_hole = ring.ring > 0 && number > 0;
+        shells.push(if is_hole { shells[number - 1] } else { number });
+    }
+    shells
+}
+
 /// Rings as the library has them: which one a segment is of, and the shell of each.
 pub(super) struct Shells {
     ring_of: Vec<Option<usize>>,
@@ -32,23 +42,30 @@ pub(super) struct Shells {
 impl Shells {
     pub(super) fn of(graph: &Graph) -> Self {
         let mut ring_of = vec![None; graph.segments.len()];
-        let mut shells: Vec<usize> = Vec::with_capacity(graph.rings.len());
         for (number, ring) in graph.rings.iter().enumerate() {
             ring_of[ring.segments.clone()].fill(Some(number));
-            let is_hole = ring.ring > 0 && number > 0;
-            shells.push(if is_hole { shells[number - 1] } else { number });
         }
-        Self { ring_of, shells }
+        Self { ring_of, shells: shells_of(graph) }
+    }
+
+    /// The ring of a segment.
+    pub(super) fn ring(&self, s: SegmentId) -> Option<usize> {
+        self.ring_of.get(s.index()).copied().flatten()
+    }
+
+    /// The shell of each ring.
+    pub(super) fn shells(&self) -> &[usize] {
+        &self.shells
     }
 
     /// Places in shells and in none of their holes.
     pub(super) fn minus_holes(&self, c: &Constrained2) -> Domains2 {
-        c.shells_minus_holes(|s| self.ring_of.get(s.index()).copied().flatten(), &self.shells)
+        c.shells_minus_holes(|s| self.ring(s), &self.shells)
     }
 
     /// A remark on holes that are filled at least in part, if there are any.
     pub(super) fn remark(&self, c: &Constrained2, graph: &Graph, inside: &Domains2) -> Option<String> {
-        let filled = c.filled_holes(inside, |s| self.ring_of.get(s.index()).copied().flatten(), &self.shells);
+        let filled = c.filled_holes(inside, |s| self.ring(s), &self.shells);
         let first = &graph.rings[*filled.first()?];
         Some(filled_holes(filled.len(), first.polygon, first.ring))
     }
@@ -88,11 +105,10 @@ pub(crate) fn unshown(c: &Constrained2, graph: &Graph, inside: &Domains2, region
     let shown: HashSet<usize> = edges.filter_map(|(_, row)| row).collect();
     let triangles = c.triangle_ids().filter(|&t| inside.is_inside(t));
     let filled: HashSet<usize> = triangles.filter_map(|t| inside.region(t)).map(|r| regions.row(r)).collect();
-    let mut ends = vec![false; graph.cloud.xy.len()];
-    graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
+    let is_lone = graph.lone_points();
     Unshown {
         lines: (!lines.is_empty()).then(|| !lines.is_subset(&shown)),
         hidden_polygons: !polygons.is_subset(&filled),
-        points: (0..ends.len()).any(|i| !ends[i] && graph.cloud.features.row(i).is_some()),
+        points: (0..is_lone.len()).any(|i| is_lone[i] && graph.cloud.features.row(i).is_some()),
     }
 }

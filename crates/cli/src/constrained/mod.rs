@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Duplicates;
 use delone::{
-    Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
-    VertexId,
+    Constrained2, Counters, Crossings, Domains2, Fill, Membership2, Merges, Seeds2, SegmentId, TriangleId,
+    Triangulation, VertexId,
 };
 use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Names, Rows, Trim, picture, write_mesh};
 use delone_terrain::values::extended;
@@ -153,7 +153,13 @@ impl Constrained {
             shells.remark(&triangulation, &graph, &inside).into_iter().for_each(|text| note(quiet, text));
         }
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
-        let regions = Regions::claim(&triangulation, &graph, &mut inside, claims)?;
+        let ring = |s: SegmentId| shells.ring(s);
+        let membership = match fill {
+            FillName::Nonzero | FillName::Positive | FillName::Negative => Membership2::NonZero,
+            FillName::ShellsMinusHoles => Membership2::Shells { ring: &ring, shells: shells.shells() },
+            FillName::All | FillName::EvenOdd | FillName::Seeds => Membership2::EvenOdd,
+        };
+        let regions = Regions::claim(&triangulation, &graph, &mut inside, claims, membership)?;
         files::heed_unshown(features::unshown(&triangulation, &graph, &inside, &regions));
         drop(phase);
         stats.phase("build");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Domains2, Overlaps2, PolygonRegion2};
+use delone::{Constrained2, Domains2, Membership2, Overlaps2, PolygonRegion2};
 use delone_io::{Graph, Table, Value};
 use serde_json::{Value as Json, json};
 
@@ -50,6 +50,7 @@ impl Regions {
         graph: &Graph,
         inside: &mut Domains2,
         claims: &Claims,
+        membership: Membership2<'_>,
     ) -> Result<Self, Failure> {
         let mut rows = vec![None; graph.segments.len()];
         for ring in &graph.rings {
@@ -75,7 +76,7 @@ impl Regions {
         };
         let regions: Vec<PolygonRegion2> = (0..=*last).map(of_row).collect::<Result<_, Failure>>()?;
         let polygon = |segment: delone::SegmentId| rows.get(segment.index()).copied().flatten();
-        let combined = c.claim_polygons_as(inside, polygon, &regions, claims.overlaps);
+        let combined = c.claim_polygons_as(inside, polygon, &regions, claims.overlaps, membership);
         Ok(Self { polygons: distinct.len(), first_combined: regions.len(), combined })
     }
 

@@ -65,21 +65,36 @@ impl Boxes {
 
     /// Tells the boxes that meet a box, by index.
     pub(in crate::plane) fn each(&self, asked: &Span, mut each: impl FnMut(usize)) {
-        self.each_of(asked, (0, 0, self.spans.len()), &mut each);
+        self.each_of(&|span| meet(span, asked), (0, 0, self.spans.len()), &mut each);
     }
 
-    fn each_of(&self, asked: &Span, (node, low, high): (usize, usize, usize), each: &mut impl FnMut(usize)) {
-        if !meet(&self.around[node], asked) {
+    /// Tells the boxes that are within a distance of a place, up to rounding, by index.
+    pub(in crate::plane) fn each_within(&self, at: [f64; 2], radius: f64, mut each: impl FnMut(usize)) {
+        let is_within = |span: &Span| {
+            let [x, y] = [0, 1].map(|k| (span[0][k] - at[k]).max(at[k] - span[1][k]).max(0.0));
+            x <= radius && y <= radius && (x + y <= radius || x.hypot(y) <= radius)
+        };
+        self.each_of(&is_within, (0, 0, self.spans.len()), &mut each);
+    }
+
+    /// The boxes of a range that pass a test, which boxes around them pass, too.
+    fn each_of(
+        &self,
+        is_met: &impl Fn(&Span) -> bool,
+        (node, low, high): (usize, usize, usize),
+        each: &mut impl FnMut(usize),
+    ) {
+        if !is_met(&self.around[node]) {
             return;
         }
         if high - low <= LEAF_BOXES {
             let found = self.order[low..high].iter().map(|&k| k as usize);
-            found.filter(|&k| meet(&self.spans[k], asked)).for_each(each);
+            found.filter(|&k| is_met(&self.spans[k])).for_each(each);
             return;
         }
         let half = low + (high - low) / 2;
-        self.each_of(asked, (2 * node + 2, half, high), each);
-        self.each_of(asked, (2 * node + 1, low, half), each);
+        self.each_of(is_met, (2 * node + 2, half, high), each);
+        self.each_of(is_met, (2 * node + 1, low, half), each);
     }
 }
 

@@ -33,9 +33,9 @@ mod weld;
 
 pub use arc::{Arc2, arcs_over_shared_chords};
 pub use constrained::{
-    Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Gap2, Overlaps2,
-    Part2, PolygonRegion2, PolygonTriangles2, Polygons2, RegionSeed2, RingFill, Seeds2, SegmentEnds,
-    SegmentId,
+    Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Gap2,
+    Membership2, Overlaps2, Part2, PolygonRegion2, PolygonTriangles2, Polygons2, RegionSeed2, RingFill,
+    Seeds2, SegmentEnds, SegmentId,
 };
 pub use construct::Algorithm2;
 pub(crate) use construct::{InOrder, in_order};

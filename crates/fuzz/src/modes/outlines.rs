@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Crossings, Error, Fill, LineCells2, Region2, VertexId, Weld2};
+use delone::{LineCells2, Region2, VertexId, Weld2};
 use delone_generators::Random;
 use num_bigint::BigInt;
 
@@ -117,21 +117,7 @@ impl Attack for Welds {
         if places(&weld(&other, &back)?, &other) != once {
             return Err("in another order there is another result".into());
         }
-        gap(&points, &ends)
-    }
-}
-
-/// The narrowest gap is not wider than the distance between two vertices of two segments without a common end.
-fn gap(points: &[Point], ends: &[[usize; 2]]) -> Judgement {
-    let c = match Constrained2::with_crossings(points, ends, Crossings::Split) {
-        Ok(c) => c,
-        Err(Error::Crossing { .. } | Error::SegmentsCross { .. }) => return Ok(()),
-        Err(error) => return Err(error.to_string()),
-    };
-    let domains = c.domains(&Fill::All).map_err(|error| error.to_string())?;
-    match c.narrowest_gap(&domains) {
-        Some(gap) if !(gap.width >= 0.0) => Err(format!("a gap of {gap:?}")),
-        _ => Ok(()),
+        Ok(())
     }
 }
 

@@ -1,13 +1,14 @@
 //! Polygons as regions: which polygon each part is in.
 //!
-//! A ring parts its inside from its outside. Across a constraint a part enters or leaves the polygons whose rings cover it an odd number of
-//! times; so one walk over the parts, from infinity and back, tells all of them. Parity decides, and no coordinate is asked for.
+//! A ring parts its inside from its outside. Across a constraint the winding numbers of the rings that cover it change by one; so one walk
+//! over the parts, from infinity and back, tells those of all rings. Numbers decide, and no coordinate is asked for.
 //!
 //! Cost: O(m log m) for m constraint edges, and as much memory.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::domains::{Domains2, Known};
+use super::shells::filled_shells;
 use super::{Constrained2, SegmentId};
 use crate::ids::EdgeId;
 
@@ -57,7 +58,28 @@ pub enum Overlaps2 {
     Combined,
 }
 
-/// A border between two parts, seen from one of them: the other part, and the constraint, if there is one.
+/// Which places are in a polygon.
+#[derive(Clone, Copy, Default)]
+#[non_exhaustive]
+pub enum Membership2<'a> {
+    /// An odd number of its segments is around them.
+    #[default]
+    EvenOdd,
+    /// The winding number of its segments is not zero.
+    NonZero,
+    /// They are in a shell of it and in none of the holes of that shell, as [`Constrained2::shells_minus_holes`] has it.
+    Shells {
+        /// The ring of a segment.
+        ring: &'a dyn Fn(SegmentId) -> Option<usize>,
+        /// The shell of each ring: of a shell, itself.
+        shells: &'a [usize],
+    },
+}
+
+/// How often rings wind around a part, by their numbers; not those of 0.
+pub(super) type Windings = BTreeMap<usize, i32>;
+
+/// A border between two parts, seen from one of them: the other part, and the constraint with the one on its left, if there is one.
 type Border = (usize, Option<EdgeId>);
 
 impl Constrained2 {
@@ -91,17 +113,17 @@ impl Constrained2 {
         attributes: &[f64],
     ) {
         let regions: Vec<PolygonRegion2> = attributes.iter().copied().map(PolygonRegion2::new).collect();
-        self.claim_polygons_as(domains, polygon, &regions, Overlaps2::Last);
+        self.claim_polygons_as(domains, polygon, &regions, Overlaps2::Last, Membership2::EvenOdd);
     }
 
-    /// As [`Self::claim_polygons`], with sizes for refinement, and a rule for parts in several polygons. Gives the polygons of each combined
+    /// As [`Self::claim_polygons`], with sizes for refinement, a rule for parts in several polygons, and one for which polygons a part is in. Gives the polygons of each combined
     /// region: its index is that in the result, after all polygons, and its attribute is the index plus 1.
     ///
     /// # Panics
-    /// If there is no region for a polygon.
+    /// If there is no region for a polygon, or no shell for a ring.
     ///
     /// ```
-    /// use delone::{Constrained2, Fill, Overlaps2, PolygonRegion2};
+    /// use delone::{Constrained2, Fill, Membership2, Overlaps2, PolygonRegion2};
     ///
     /// // A square in a larger one.
     /// let points = [[0, 0], [9, 0], [9, 9], [0, 9], [2, 2], [4, 2], [4, 4], [2, 4]];
@@ -109,7 +131,8 @@ impl Constrained2 {
     /// let c = Constrained2::from_parts(&points, &segments)?;
     /// let mut domains = c.domains(&Fill::NonZero)?;
     /// let regions = [PolygonRegion2::new(1.0), PolygonRegion2::new(2.0)];
-    /// let made = c.claim_polygons_as(&mut domains, |s| Some(s.index() / 4), &regions, Overlaps2::Combined);
+    /// let polygon = |s: delone::SegmentId| Some(s.index() / 4);
+    /// let made = c.claim_polygons_as(&mut domains, polygon, &regions, Overlaps2::Combined, Membership2::EvenOdd);
     /// assert_eq!(made, [[0, 1]]);
     /// let inner = c.triangle_ids().find(|&t| domains.region(t) == Some(2)).expect("the inner square");
     /// assert_eq!(domains.attribute(inner), Some(3.0));
@@ -121,10 +144,10 @@ impl Constrained2 {
         polygon: impl Fn(SegmentId) -> Option<usize>,
         regions: &[PolygonRegion2],
         overlaps: Overlaps2,
+        membership: Membership2<'_>,
     ) -> Vec<Vec<usize>> {
         domains.forget_regions();
-        let mut around: Vec<Vec<usize>> = vec![Vec::new(); domains.parts.len()];
-        self.each_part_within(domains, polygon, |part, within| around[part].extend(within));
+        let around = self.polygons_of_parts(domains, polygon, membership);
         let areas =
             if overlaps == Overlaps2::Smallest { self.areas_of(domains, &around) } else { BTreeMap::new() };
         let combined: BTreeSet<&[usize]> = match overlaps {
@@ -180,47 +203,78 @@ impl Constrained2 {
         areas
     }
 
-    /// Calls for each part with the polygons that it is in.
-    pub(super) fn each_part_within(
+    /// The polygons that each part is in, by increasing number.
+    fn polygons_of_parts(
         &self,
         domains: &Domains2,
         polygon: impl Fn(SegmentId) -> Option<usize>,
-        mut each: impl FnMut(usize, &BTreeSet<usize>),
+        membership: Membership2<'_>,
+    ) -> Vec<Vec<usize>> {
+        let mut all: Vec<Vec<usize>> = vec![Vec::new(); domains.parts.len()];
+        match membership {
+            Membership2::EvenOdd => self.each_part_within(domains, polygon, |part, windings| {
+                all[part] = odd(windings).collect();
+            }),
+            Membership2::NonZero => self.each_part_within(domains, polygon, |part, windings| {
+                all[part] = windings.keys().copied().collect();
+            }),
+            Membership2::Shells { ring, shells } => {
+                let of_segment = |(s, _): (SegmentId, _)| Some((ring(s)?, polygon(s)?));
+                let polygons: BTreeMap<usize, usize> = self.segments().filter_map(of_segment).collect();
+                self.each_part_within(domains, ring, |part, windings| {
+                    let filled = filled_shells(&odd(windings).collect(), shells);
+                    let of_shells: BTreeSet<usize> =
+                        filled.iter().filter_map(|shell| polygons.get(shell).copied()).collect();
+                    all[part] = of_shells.into_iter().collect();
+                });
+            }
+        }
+        all
+    }
+
+    /// Calls for each part with how often rings wind around it.
+    pub(super) fn each_part_within(
+        &self,
+        domains: &Domains2,
+        ring: impl Fn(SegmentId) -> Option<usize>,
+        mut each: impl FnMut(usize, &Windings),
     ) {
         let outside = domains.parts.len();
         let borders = self.part_borders(domains);
         let mut is_known = vec![false; outside + 1];
         is_known[outside] = true;
-        let mut around = BTreeSet::new();
+        let mut windings = Windings::new();
         // Each part on the way from infinity: how it was entered, and how many of its borders were tried.
         let mut way: Vec<(usize, Option<EdgeId>, usize)> = vec![(outside, None, 0)];
         while let Some((part, entered, tried)) = way.last_mut() {
             let Some(&(next, edge)) = borders[*part].get(*tried) else {
-                self.cross(*entered, &polygon, &mut around);
+                self.cross(*entered, &ring, -1, &mut windings);
                 way.pop();
                 continue;
             };
             *tried += 1;
             if !std::mem::replace(&mut is_known[next], true) {
-                self.cross(edge, &polygon, &mut around);
-                each(next, &around);
+                self.cross(edge, &ring, 1, &mut windings);
+                each(next, &windings);
                 way.push((next, edge, 0));
             }
         }
     }
 
-    /// Enters the polygons whose rings cover an edge an odd number of times, or leaves them.
+    /// Crosses an edge from its left to its right, or back.
     fn cross(
         &self,
         edge: Option<EdgeId>,
-        polygon: &impl Fn(SegmentId) -> Option<usize>,
-        around: &mut BTreeSet<usize>,
+        ring: &impl Fn(SegmentId) -> Option<usize>,
+        sign: i32,
+        windings: &mut Windings,
     ) {
         for covering in edge.map(|e| self.covering(e)).unwrap_or_default() {
-            if let Some(own) = polygon(covering.segment)
-                && !around.remove(&own)
-            {
-                around.insert(own);
+            let Some(own) = ring(covering.segment) else { continue };
+            let winding = windings.entry(own).or_default();
+            *winding += if covering.is_forward { -sign } else { sign };
+            if *winding == 0 {
+                windings.remove(&own);
             }
         }
     }
@@ -235,9 +289,14 @@ impl Constrained2 {
             let [one, other] = [part(e), part(self.mesh().twin(e))];
             if one != other {
                 borders[one].push((other, constraint));
-                borders[other].push((one, constraint));
+                borders[other].push((one, constraint.map(|e| self.mesh().twin(e))));
             }
         }
         borders
     }
+}
+
+/// The rings that an odd number of segments of is around.
+pub(super) fn odd(windings: &Windings) -> impl Iterator<Item = usize> {
+    windings.iter().filter(|(_, winding)| *winding % 2 != 0).map(|(&ring, _)| ring)
 }

@@ -54,7 +54,7 @@ pub use check::ConstrainedFlaw2;
 pub use domains::{Domains2, Fill, Part2, RegionSeed2, Seeds2};
 pub use gap::Gap2;
 pub(in crate::plane) use kept::sorted;
-pub use members::{Overlaps2, PolygonRegion2};
+pub use members::{Membership2, Overlaps2, PolygonRegion2};
 pub use polygons::{PolygonTriangles2, Polygons2, RingFill};
 pub(in crate::plane) use refined::{Before, Origin};
 pub use segments::{Covering2, SegmentId};

@@ -8,6 +8,7 @@
 use std::collections::BTreeSet;
 
 use super::domains::Domains2;
+use super::members::{Windings, odd};
 use super::{Constrained2, SegmentId};
 
 impl Constrained2 {
@@ -38,7 +39,7 @@ impl Constrained2 {
     ) -> Domains2 {
         let mut domains = self.parts();
         let mut is_inside = vec![false; domains.parts.len()];
-        self.each_part_within(&domains, ring, |part, around| is_inside[part] = is_filled(around, shells));
+        self.each_part_within(&domains, ring, |part, windings| is_inside[part] = is_filled(windings, shells));
         domains.parts.iter_mut().zip(is_inside).for_each(|(part, is_inside)| part.is_inside = is_inside);
         domains
     }
@@ -67,19 +68,27 @@ impl Constrained2 {
         shells: &[usize],
     ) -> Vec<usize> {
         let mut filled = BTreeSet::new();
-        self.each_part_within(domains, ring, |part, around| {
-            if domains.parts[part].is_inside && !is_filled(around, shells) {
-                filled.extend(around.iter().copied().filter(|&ring| shells[ring] != ring));
+        self.each_part_within(domains, ring, |part, windings| {
+            if domains.parts[part].is_inside && !is_filled(windings, shells) {
+                filled.extend(odd(windings).filter(|&ring| shells[ring] != ring));
             }
         });
         filled.into_iter().collect()
     }
 }
 
-/// Whether an area in these rings is in a shell and in none of its holes.
-fn is_filled(around: &BTreeSet<usize>, shells: &[usize]) -> bool {
-    let holed: BTreeSet<usize> =
+/// Whether an area is in a shell and in none of its holes.
+fn is_filled(windings: &Windings, shells: &[usize]) -> bool {
+    !filled_shells(&odd(windings).collect(), shells).is_empty()
+}
+
+/// The shells among these rings none of whose holes is among them.
+pub(super) fn filled_shells(around: &BTreeSet<usize>, shells: &[usize]) -> Vec<usize> {
+    let mut all: Vec<usize> =
         around.iter().map(|&ring| shells[ring]).filter(|shell| around.contains(shell)).collect();
+    all.sort_unstable();
+    all.dedup();
     let is_whole = |shell: &usize| !around.iter().any(|ring| ring != shell && shells[*ring] == *shell);
-    holed.iter().any(is_whole)
+    all.retain(is_whole);
+    all
 }

@@ -4,6 +4,8 @@
 //!
 //! - as long as another site is in the circle on it: without any the piece is in the cells of its ends, and no border crosses it;
 //! - as long as one of its ends is the site of another line;
+//! - as long as it reaches into a disc without sites about a border between lines, or about the rim of the region, by more than half of the
+//!   tolerance: somewhere it is nearer than the sites tell;
 //! - as long as a border beside it is farther than half of the tolerance from the exact bisector of both lines. This is measured at both
 //!   ends and in the middle of each side of the border, by the distances from the pieces themselves.
 //!
@@ -15,12 +17,15 @@
 //!
 //! Cost: a triangulation of all sites in each round, O(log(length / tolerance)) rounds; the last few have most of the sites.
 
+use std::collections::BTreeMap;
+
 use delone_predicates::{angle, lexicographic};
 
 use super::VoronoiEdge2;
 use super::cells::Cells2;
+use super::discs::Discs;
 use crate::error::Error;
-use crate::ids::{MAX_POINTS, VertexId};
+use crate::ids::{EdgeId, MAX_POINTS, VertexId};
 use crate::plane::constrained::{Constrained2, Crossings, SegmentId};
 use crate::plane::delaunay::Delaunay2;
 use crate::plane::region::Region2;
@@ -33,6 +38,12 @@ const LEAST_PIECE: f64 = 0.5;
 /// Pieces are divided beside a border that is off by more than this part of the tolerance: between the three places where that is measured,
 /// and by terms of second order, it may be off by more.
 const MEASURED_PART: f64 = 0.5;
+
+/// A piece at one of both sites of a border may reach this many times as far into discs around it: there the border itself is measured.
+const OWN_REACH: f64 = 4.0;
+
+/// Ends of borders are on the rim that are within this part of the width of the box. More stretches of the rim cost time only.
+const RIM_ROUNDING: f64 = 1e-9;
 
 /// The clipped Voronoi cells of lines.
 ///
@@ -68,7 +79,8 @@ pub struct LineCells2 {
 }
 
 impl LineCells2 {
-    /// The cells of lines in a region. Segments are between points by index; `lines` has the line of each. Lines may cross, touch and overlap.
+    /// The cells of lines in a region. Segments are between points by index; `lines` has the line of each. Lines may cross, touch and overlap,
+    /// and a segment without a length is a point.
     /// The tolerance is a length in coordinate units, more than 0.
     ///
     /// # Errors
@@ -82,16 +94,11 @@ impl LineCells2 {
         region: &Region2,
         tolerance: f64,
     ) -> Result<Self, Error> {
-        let refused = |name, value, range| Err(Error::Parameter { name, value, range });
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return refused("tolerance", tolerance, "positive and finite");
-        }
-        if lines.len() != segments.len() {
-            return refused("lines", lines.len() as f64, "one for each segment");
-        }
+        checked(segments.len(), lines.len(), tolerance)?;
         let c = Constrained2::with_crossings(points, segments, Crossings::Split)?;
         let mut made = Self::default();
         let mut pieces = made.pieces(&c, |segment| lines[segment.index()]);
+        made.points_of(points, segments, lines);
         let d = made.settle(&mut pieces, region, Borders { tolerance, cosine: None })?;
         let groups = lines.iter().max().map_or(0, |last| last + 1);
         let cells = d.voronoi().clip(region);
@@ -106,15 +113,24 @@ impl LineCells2 {
         region: &Region2,
         borders: Borders,
     ) -> Result<Delaunay2, Error> {
+        // Borders are as they were where no site is new or has another piece.
+        let mut changed = vec![true; self.sites.len()];
         loop {
             self.rounds += 1;
             let d = Delaunay2::from_points(&self.sites)?;
-            let (marked, deviation) = Round::new(self, pieces, &d, region, borders).run();
-            self.deviation = deviation;
+            let (mut marked, mut deviation) = Round::new(self, pieces, &d, region, borders).run(&changed);
+            if marked.is_empty() && changed.contains(&false) {
+                changed.fill(true);
+                (marked, deviation) = Round::new(self, pieces, &d, region, borders).run(&changed);
+            }
             if marked.is_empty() {
+                self.deviation = deviation;
                 return Ok(d);
             }
+            changed.fill(false);
+            marked.iter().flat_map(|&piece| pieces[piece].ends).for_each(|end| changed[end] = true);
             self.divide(pieces, marked)?;
+            changed.resize(self.sites.len(), true);
         }
     }
 
@@ -144,6 +160,26 @@ impl LineCells2 {
         pieces
     }
 
+    /// Segments without a length are places, too.
+    pub(super) fn points_of<P: Position2>(&mut self, points: &[P], segments: &[[usize; 2]], lines: &[usize]) {
+        let place = |i: usize| points[i].xy().map(|x| x + 0.0);
+        let short = segments.iter().zip(lines).filter(|(ends, _)| place(ends[0]) == place(ends[1]));
+        let short: Vec<([f64; 2], usize)> = short.map(|(ends, &line)| (place(ends[0]), line)).collect();
+        if short.is_empty() {
+            return;
+        }
+        let key = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+        let mut known: BTreeMap<[u64; 2], usize> = self.sites.iter().copied().map(key).zip(0..).collect();
+        for (at, line) in short {
+            let site = *known.entry(key(at)).or_insert(self.sites.len());
+            if site == self.sites.len() {
+                self.sites.push(at);
+                self.lines.push(line);
+            }
+            self.lines[site] = self.lines[site].min(line);
+        }
+    }
+
     /// Halves pieces.
     fn divide(&mut self, pieces: &mut Vec<Piece>, marked: Vec<usize>) -> Result<(), Error> {
         if self.sites.len() + marked.len() > MAX_POINTS {
@@ -165,7 +201,7 @@ impl LineCells2 {
 /// A piece of a line between two sites.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    ends: [usize; 2],
+    pub(super) ends: [usize; 2],
     line: usize,
 }
 
@@ -204,22 +240,32 @@ impl<'a> Round<'a> {
         Self { made, pieces, d, region, borders, at_sites }
     }
 
-    /// The pieces that must be divided, and the largest deviation of a border.
-    fn run(&self) -> (Vec<usize>, f64) {
+    /// The pieces that must be divided, and the largest deviation of a border, of all borders that changed sites have a part in.
+    fn run(&self, changed: &[bool]) -> (Vec<usize>, f64) {
         let clear = self.clear_pieces();
         let may_be_crossed = (0..self.pieces.len()).filter(|&piece| !clear[piece]);
         let mut marked: Vec<usize> = may_be_crossed.filter(|&piece| self.may_be_divided(piece)).collect();
         let mut deviation: f64 = 0.0;
         let mesh = self.d.mesh();
+        let divisible = (0..self.pieces.len()).filter(|&piece| self.may_be_divided(piece)).collect();
+        let depth = MEASURED_PART * self.borders.tolerance;
+        let discs = Discs::new(&self.made.sites, self.pieces, divisible, depth);
         for e in mesh.undirected_edges() {
             let sites = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
             let [one, other] = sites.map(|site| self.made.lines[site]);
             let is_between = one != other || self.borders.cosine.is_some();
-            if !is_between || !self.d.voronoi().has_length(e) {
+            let around = [mesh.origin(e), mesh.destination(e), mesh.apex(e), mesh.apex(mesh.twin(e))];
+            let is_changed = around.iter().any(|site| changed.get(site.index()) == Some(&true));
+            if !is_between || !is_changed || !self.d.voronoi().has_length(e) {
                 continue;
             }
             let Some([p, q]) = self.within(self.d.voronoi().edge(e)) else { continue };
             let middle = [0, 1].map(|k| 0.5 * p[k] + 0.5 * q[k]);
+            if self.borders.cosine.is_none() {
+                let is_own = |piece| sites.iter().any(|&site| self.at_sites[site].contains(&piece));
+                let reach = |piece| if is_own(piece) { OWN_REACH } else { 1.0 };
+                discs.mark([p, q], sites[0], reach, &mut marked);
+            }
             for at in [p, middle, q] {
                 let near = sites.map(|site| self.nearest(at, site));
                 let Some((off, cosine)) = deviation_at(at, near.map(|near| near.0)) else { continue };
@@ -242,19 +288,59 @@ impl<'a> Round<'a> {
             }
         }
         if self.borders.cosine.is_some() {
-            self.mark_far(&mut marked);
+            self.mark_far(changed, &mut marked);
+        } else {
+            self.mark_rim(&discs, &mut marked);
         }
         marked.sort_unstable();
         marked.dedup();
         (marked, deviation)
     }
 
+    /// Marks pieces that reach into the box around the region through a stretch of its border that is in the cell of another line.
+    fn mark_rim(&self, discs: &Discs<'_>, marked: &mut Vec<usize>) {
+        let [low, high] = self.region.bounds();
+        // Of each side of the box the axis across it, the coordinate on that, and how far along it borders cross it.
+        let mut rim = [(0, low), (1, low), (0, high), (1, high)]
+            .map(|(across, corner)| (across, corner[across], vec![low[1 - across], high[1 - across]]));
+        let mesh = self.d.mesh();
+        let is_within = |at: [f64; 2]| (0..2).all(|k| low[k] < at[k] && at[k] < high[k]);
+        let mut has_center_within = vec![false; 1 + mesh.triangles().map(|t| t.index()).max().unwrap_or(0)];
+        for t in mesh.triangles() {
+            has_center_within[t.index()] = self.d.circumcenter(t).is_some_and(is_within);
+        }
+        let is_within_at = |e: EdgeId| has_center_within.get(e.triangle().index()) == Some(&true);
+        let may_cross = |e: EdgeId| !is_within_at(e) || !is_within_at(mesh.twin(e));
+        for e in mesh.undirected_edges().filter(|&e| may_cross(e) && self.d.voronoi().has_length(e)) {
+            let Some(ends) = self.within(self.d.voronoi().edge(e)) else { continue };
+            for end in ends {
+                for (across, at, along) in &mut rim {
+                    let is_there =
+                        (end[*across] - *at).abs() <= RIM_ROUNDING * (high[*across] - low[*across]);
+                    along.extend(is_there.then_some(end[1 - *across]));
+                }
+            }
+        }
+        for (across, at, mut along) in rim {
+            along.sort_unstable_by(f64::total_cmp);
+            along.dedup();
+            for stretch in along.windows(2) {
+                let place = |x: f64| if across == 0 { [at, x] } else { [x, at] };
+                let middle = place(stretch[0].midpoint(stretch[1]));
+                let Ok(Some(site)) = self.d.nearest(middle) else { continue };
+                let own = self.made.lines[site.index()];
+                let reach = |piece: usize| if self.pieces[piece].line == own { f64::INFINITY } else { 1.0 };
+                discs.mark([place(stretch[0]), place(stretch[1])], site.index(), reach, marked);
+            }
+        }
+    }
+
     /// Marks pieces that are nearer to a Voronoi vertex than their ends, by more than a part of the tolerance. Without that there may be no border
     /// to measure: of a rectangle by its corners the diagram is one vertex.
-    fn mark_far(&self, marked: &mut Vec<usize>) {
+    fn mark_far(&self, changed: &[bool], marked: &mut Vec<usize>) {
         let mesh = self.d.mesh();
         let [low, high] = self.region.bounds();
-        for t in mesh.triangles() {
+        for t in mesh.triangles().filter(|&t| mesh.corners(t).iter().any(|site| changed[site.index()])) {
             let Some(at) = self.d.circumcenter(t) else { continue };
             let is_within = [0, 1].into_iter().all(|k| low[k] <= at[k] && at[k] <= high[k]);
             let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
@@ -306,12 +392,8 @@ impl<'a> Round<'a> {
         let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
         let mut best = (own, None);
         for &piece in &self.at_sites[site] {
-            let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
-            let length = self.length(piece);
-            let way = [0, 1].map(|k| (b[k] - a[k]) / length);
-            let along = way[0] * (at[0] - a[0]) + way[1] * (at[1] - a[1]);
-            let place = [a[0] + along * way[0], a[1] + along * way[1]];
-            if (0.0..=length).contains(&along) && distance(place) < distance(best.0) {
+            let place = nearest_on(at, self.pieces[piece].ends.map(|site| self.made.sites[site]));
+            if distance(place) < distance(best.0) {
                 best = (place, Some(piece));
             }
         }
@@ -341,6 +423,32 @@ impl<'a> Round<'a> {
         }
         let place = |t: f64| [from[0] + t * way[0], from[1] + t * way[1]];
         (low <= high && low.is_finite() && high.is_finite()).then(|| [place(low), place(high)])
+    }
+}
+
+/// Whether there is a line for each segment, and a tolerance.
+pub(super) fn checked(segments: usize, lines: usize, tolerance: f64) -> Result<(), Error> {
+    let refused = |name, value, range| Err(Error::Parameter { name, value, range });
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        return refused("tolerance", tolerance, "positive and finite");
+    }
+    if lines != segments {
+        return refused("lines", lines as f64, "one for each segment");
+    }
+    Ok(())
+}
+
+/// The place of a segment that is nearest to a point.
+pub(super) fn nearest_on(at: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let way = [0, 1].map(|k| (b[k] - a[k]) / length);
+    let along = way[0] * (at[0] - a[0]) + way[1] * (at[1] - a[1]);
+    if along > 0.0 && along < length {
+        [a[0] + along * way[0], a[1] + along * way[1]]
+    } else if along >= length {
+        b
+    } else {
+        a
     }
 }
 

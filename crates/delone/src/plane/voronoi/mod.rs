@@ -13,12 +13,14 @@
 //!
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbors.
 
+mod areas;
 mod borders;
 pub(in crate::plane) mod build;
 pub(in crate::plane) mod cells;
 pub(in crate::plane) mod centers;
 pub(in crate::plane) mod clip;
 mod contract;
+mod discs;
 mod joined;
 mod lines;
 mod medial;
