@@ -209,7 +209,7 @@ static void meshes(void) {
     delone_tri2_free(t);
     IS(delone_constrained2_new(&p, crossing, 2, 0, &t, &e) == DELONE_CROSSING && e.index == 0 && t == NULL);
     IS(delone_constrained2_new(&p, crossing, 2, DELONE_SPLIT_CROSSINGS, &t, &e) == 0);
-    IS(counts_of(t).points == 9 && counts_of(t).constraints == 4);
+    IS(counts_of(t).points == 9 && counts_of(t).constraints == 5);
     delone_tri2_free(t);
     IS(delone_constrained2_new(&p, crossing, 2, 64, &t, &e) == DELONE_ARGUMENT);
     IS(delone_mesh2_new(&p, segments, 8, NULL, &t, &e) == 0);
