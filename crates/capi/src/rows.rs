@@ -1,6 +1,6 @@
 //! Counts, points, triangles, edges and stars of a triangulation of the plane.
 
-use delone::{Dimension, EdgeId, VertexId};
+use delone::{Dimension, EdgeId, TriangleId, VertexId};
 
 use crate::failure::{CError, Failure, Status, guard};
 use crate::plane::{Kind, Tri2};
@@ -85,6 +85,17 @@ impl Tri2 {
         both.filter(|&e| self.is_inside(e) && !self.is_inside(mesh.twin(e))).collect()
     }
 
+    /// How many edges there are, and how many of them are on the border: a triangle has three, and two share each that is not.
+    fn edge_counts(&self) -> [usize; 2] {
+        let (mesh, rows) = (self.mesh(), self.rows());
+        if rows.triangles.is_empty() {
+            return [self.edges().count(), 0];
+        }
+        let open = |&t: &TriangleId| mesh.adjacent(t).into_iter().filter(|&t| rows.of(t) < 0).count();
+        let border: usize = rows.triangles.iter().map(open).sum();
+        [(3 * rows.triangles.len() + border) / 2, border]
+    }
+
     fn is_constraint(&self, e: EdgeId) -> bool {
         match &self.kind {
             Kind::Constrained(c) | Kind::Mesh(c, _) => c.is_constraint(e),
@@ -122,14 +133,19 @@ pub(crate) unsafe extern "C" fn delone_tri2_counts(t: *const Tri2, counts: *mut 
     guard(std::ptr::null_mut(), || {
         // SAFETY: `delone.h` promises a handle and a struct.
         let t = unsafe { handle(t)? };
+        let [edges, hull] = t.edge_counts();
+        let constraints = match t.kind {
+            Kind::Constrained(_) | Kind::Mesh(..) => t.edges().filter(|&e| t.is_constraint(e)).count(),
+            Kind::Plain(_) | Kind::Regular(..) => 0,
+        };
         let made = CCounts {
             dimension: number(t.mesh().dimension()),
             points: t.points().len(),
             vertices: t.mesh().vertex_count(),
             simplices: t.rows().triangles.len(),
-            edges: t.edges().count(),
-            hull: t.hull().len(),
-            constraints: t.edges().filter(|&e| t.is_constraint(e)).count(),
+            edges,
+            hull,
+            constraints,
             duplicates: t.duplicates().len(),
             ..CCounts::none()
         };
@@ -231,7 +247,7 @@ pub(crate) unsafe extern "C" fn delone_tri2_regions(t: *const Tri2, regions: *mu
             let Kind::Mesh(_, domains) = &t.kind else {
                 return Err(Failure::new(Status::Dimension, "only meshes have regions"));
             };
-            let region = |row: &delone::TriangleId| domains.region(*row).map_or(-1, |region| region as i32);
+            let region = |row: &TriangleId| domains.region(*row).map_or(-1, |region| region as i32);
             write(regions, t.rows().triangles.iter().map(region));
         }
         Ok(())

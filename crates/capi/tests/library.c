@@ -68,7 +68,7 @@ static void is_good(const delone_tri2 *t, double area) {
             IS(shared == 2);
         }
     }
-    IS(edges_of_hull == c.hull);
+    IS(edges_of_hull == c.hull && 2 * c.edges == 3 * c.simplices + c.hull);
     IS(fabs(sum - area) < 1e-9 * area);
     free(corners);
     free(neighbors);
