@@ -18,6 +18,7 @@ public:
     mesh &max_edge(double length) noexcept { return options_.max_edge = length, *this; }
     /// No edge with a new vertex is shorter.
     mesh &min_edge(double length) noexcept { return options_.min_edge = length, *this; }
+    /// New vertices, at most: with so many the mesh is done, whatever is still wished.
     mesh &max_vertices(std::size_t count) noexcept { return options_.max_vertices = count, *this; }
     mesh &inside(fill rule) noexcept { return options_.fill = static_cast<std::int32_t>(rule), *this; }
     mesh &keep_whole(keep what) noexcept { return options_.keep = static_cast<std::int32_t>(what), *this; }

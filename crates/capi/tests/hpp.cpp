@@ -289,7 +289,8 @@ static void meshes() {
     delone::mesh(SQUARE, RINGS).max_area(1e-4).progress([&](std::uint64_t count) { told = count; }).run();
     CHECK(told > 0);
     THROWS(DELONE_STOPPED, ANY_INDEX, delone::mesh(SQUARE, RINGS).max_area(1e-4).progress([](auto) { return true; }).run());
-    THROWS(DELONE_TOO_MANY, ANY_INDEX, delone::mesh(SQUARE, RINGS).max_area(1e-4).max_vertices(100).run());
+    auto cut_short = delone::mesh(SQUARE, RINGS).max_area(1e-4).max_vertices(100).run();
+    CHECK(cut_short.points().size() <= 108 && cut_short.size() < 400);
     THROWS(DELONE_ARGUMENT, ANY_INDEX, delone::mesh(SQUARE, RINGS).min_angle(75).run());
 }
 
