@@ -48,7 +48,7 @@ static void describe(char *message, size_t size, int32_t status, const delone_er
     }
 }
 
-void raise(int32_t status, const delone_error *error, const char *what) {
+void stop_if_bad(int32_t status, const delone_error *error, const char *what) {
     static const char *const names[] = {"message", "call", "status", "row", ""};
     char message[512];
     SEXP condition, classes, call;

@@ -16,7 +16,7 @@ int dimension_of(SEXP handle);
 void *address_of(SEXP handle);
 
 /* Ends with a condition of class delone_error if the status is not good. `what` are the rows that an index counts. */
-void raise(int32_t status, const delone_error *error, const char *what);
+void stop_if_bad(int32_t status, const delone_error *error, const char *what);
 
 /* The columns of a matrix, where they are. */
 delone_points points_of(SEXP matrix, int dimension);

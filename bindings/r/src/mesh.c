@@ -95,7 +95,7 @@ SEXP r_mesh(SEXP p, SEXP segments, SEXP wishes) {
     if (w.is_stopped == 1) Rf_error("the function of areas: %s", R_curErrorBuf());
     if (w.is_stopped == 2) Rf_error("the function of areas gave no number");
     if (w.is_stopped == 3) Rf_error("interrupted");
-    raise(status, &error, status == DELONE_INDEX ? "segments" : "points");
+    stop_if_bad(status, &error, status == DELONE_INDEX ? "segments" : "points");
     UNPROTECT(1);
     return handle;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include <R_ext/Rdynload.h>
+#include <R_ext/Visibility.h>
 
 static const delone_error NO_ERROR = {sizeof(delone_error), 0, -1, {0}};
 
@@ -33,7 +34,7 @@ static SEXP r_new(SEXP p, SEXP segments, SEXP weights, SEXP split) {
         }
         R_SetExternalPtrAddr(handle, t);
     }
-    raise(status, &error, what);
+    stop_if_bad(status, &error, what);
     UNPROTECT(1);
     return handle;
 }
@@ -62,7 +63,7 @@ static SEXP rows_of(SEXP handle, int is_neighbors) {
     } else {
         status = delone_tri2_triangles(address_of(handle), corners, neighbors);
     }
-    raise(status, &error, "simplices");
+    stop_if_bad(status, &error, "simplices");
     return signed_matrix_of((int32_t *) rows, count, columns);
 }
 
@@ -88,7 +89,7 @@ static SEXP r_edges(SEXP handle) {
     uint8_t *is_constraint = (uint8_t *) R_alloc(count + 1, 1);
     delone_error error = NO_ERROR;
     SEXP result, flags;
-    raise(delone_tri2_edges(t, ends, is_constraint), &error, "edges");
+    stop_if_bad(delone_tri2_edges(t, ends, is_constraint), &error, "edges");
     result = PROTECT(Rf_allocVector(VECSXP, 2));
     SET_VECTOR_ELT(result, 0, matrix_of(ends, count, 2));
     flags = Rf_allocVector(LGLSXP, (R_xlen_t) count);
@@ -105,7 +106,7 @@ static SEXP r_hull(SEXP handle) {
     delone_error error = NO_ERROR;
     int32_t status =
         dimension == 3 ? delone_tri3_hull(address_of(handle), corners) : delone_tri2_hull(address_of(handle), corners);
-    raise(status, &error, "hull");
+    stop_if_bad(status, &error, "hull");
     return matrix_of(corners, count, dimension);
 }
 
@@ -124,7 +125,7 @@ static SEXP r_locate(SEXP handle, SEXP p) {
     delone_error error = NO_ERROR;
     int32_t status = dimension == 3 ? delone_tri3_locate(address_of(handle), &places, rows, &error)
                                     : delone_tri2_locate(address_of(handle), &places, rows, &error);
-    raise(status, &error, "places");
+    stop_if_bad(status, &error, "places");
     return long_matrix_of(rows, places.count, 1);
 }
 
@@ -138,7 +139,7 @@ static SEXP r_nearest(SEXP handle, SEXP p, SEXP k) {
     rows = (int64_t *) R_alloc(places.count * (size_t) each + 1, sizeof(int64_t));
     status = dimension == 3 ? delone_tri3_nearest(address_of(handle), &places, (uint32_t) each, rows, &error)
                             : delone_tri2_nearest(address_of(handle), &places, (uint32_t) each, rows, &error);
-    raise(status, &error, "places");
+    stop_if_bad(status, &error, "places");
     return long_matrix_of(rows, places.count, each);
 }
 
@@ -152,7 +153,7 @@ static SEXP r_interpolate(SEXP handle, SEXP values, SEXP p, SEXP how) {
     int32_t status =
         dimension == 3 ? delone_tri3_interpolate(address_of(handle), REAL(values), count, &places, method, REAL(out), &error)
                        : delone_tri2_interpolate(address_of(handle), REAL(values), count, &places, method, REAL(out), &error);
-    raise(status, &error, "places");
+    stop_if_bad(status, &error, "places");
     UNPROTECT(1);
     return out;
 }
@@ -161,7 +162,7 @@ static SEXP r_check(SEXP handle) {
     delone_error error = NO_ERROR;
     int32_t status = dimension_of(handle) == 3 ? delone_tri3_check(address_of(handle), &error)
                                                : delone_tri2_check(address_of(handle), &error);
-    raise(status, &error, "points");
+    stop_if_bad(status, &error, "points");
     return R_NilValue;
 }
 
@@ -170,7 +171,7 @@ static SEXP r_insert(SEXP handle, SEXP p) {
     delone_points points = points_of(p, 2);
     uint32_t *ids = (uint32_t *) R_alloc(points.count + 1, sizeof(uint32_t));
     delone_error error = NO_ERROR;
-    raise(delone_tri2_insert(t, &points, ids, &error), &error, "points");
+    stop_if_bad(delone_tri2_insert(t, &points, ids, &error), &error, "points");
     return matrix_of(ids, points.count, 1);
 }
 
@@ -178,7 +179,7 @@ static SEXP r_remove(SEXP handle, SEXP vertices) {
     size_t count;
     uint32_t *rows = indices_of(vertices, 1, &count);
     delone_error error = NO_ERROR;
-    raise(delone_tri2_remove(plane(handle), rows, count, &error), &error, "vertices");
+    stop_if_bad(delone_tri2_remove(plane(handle), rows, count, &error), &error, "vertices");
     return R_NilValue;
 }
 
@@ -197,7 +198,7 @@ static SEXP r_voronoi(SEXP handle, SEXP box) {
     starts = (size_t *) R_alloc(count + 1, sizeof(size_t));
     areas = (double *) R_alloc(count + 1, sizeof(double));
     status = delone_tri2_voronoi(t, Rf_isNull(box) ? NULL : REAL(box), &cells, &error);
-    raise(status, &error, "points");
+    stop_if_bad(status, &error, "points");
     delone_cells_counts(cells, &cell_count, &corner_count, &vertex_count);
     corners = R_Calloc(corner_count + 1, uint32_t);
     xy = R_Calloc(2 * vertex_count + 1, double);
@@ -215,7 +216,7 @@ static SEXP r_voronoi(SEXP handle, SEXP box) {
     if (count > 0) memcpy(REAL(VECTOR_ELT(result, 3)), areas, count * sizeof(double));
     R_Free(corners);
     R_Free(xy);
-    raise(status, &error, "cells");
+    stop_if_bad(status, &error, "cells");
     UNPROTECT(1);
     return result;
 }
@@ -230,7 +231,7 @@ static const R_CallMethodDef ENTRIES[] = {
     ENTRY(r_insert, 2),  ENTRY(r_remove, 2),  ENTRY(r_interpolate, 4), ENTRY(r_check, 1),     ENTRY(r_voronoi, 2),
     {NULL, NULL, 0}};
 
-void R_init_delone(DllInfo *info) {
+attribute_visible void R_init_delone(DllInfo *info) {
     R_registerRoutines(info, NULL, ENTRIES, NULL, NULL);
     R_useDynamicSymbols(info, FALSE);
     if (delone_abi_version() >> 16 != DELONE_ABI_VERSION >> 16) Rf_error("libdelone is of another version than this package");
