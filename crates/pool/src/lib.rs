@@ -57,11 +57,23 @@ pub fn pool() -> Option<&'static ThreadPool> {
     Some(slot.pool.get_or_init(|| made))
 }
 
-/// As many threads as `RAYON_NUM_THREADS` says, or there are cores. Many more than these would only wait for each other.
+/// How many threads a program asked for; 0 is none.
+static ASKED: AtomicUsize = AtomicUsize::new(0);
+
+/// Sets how many threads there are from now on; 0 is as many as without a call. Work that runs goes on with those it has, and a pool that is
+/// no more used keeps its threads, which sleep.
+pub fn set_threads(count: usize) {
+    if ASKED.swap(count, Ordering::AcqRel) != count && slot().pool.get().is_some() {
+        GENERATION.fetch_add(1, Ordering::AcqRel);
+    }
+}
+
+/// As many threads as were asked for, as `RAYON_NUM_THREADS` says, or there are cores. Many more than these would only wait for each other.
 fn threads() -> usize {
     let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
-    asked.filter(|&asked| asked > 0).unwrap_or(cores).min((4 * cores).max(16))
+    let of_program = Some(ASKED.load(Ordering::Acquire)).filter(|&asked| asked > 0);
+    let of_user = || std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
+    of_program.or_else(of_user).filter(|&asked| asked > 0).unwrap_or(cores).min((4 * cores).max(16))
 }
 
 /// A pool of so many threads, or of half as many, and so on: of what the system gives.
