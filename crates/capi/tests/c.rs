@@ -6,10 +6,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder that cargo puts the library in.
+/// The folder that cargo puts the library in, beside the tests.
 fn libraries() -> PathBuf {
     let test = std::env::current_exe().expect("a path");
-    test.ancestors().nth(2).expect("deps is in a folder").to_owned()
+    test.parent().expect("a folder").to_owned()
 }
 
 fn here(name: &str) -> PathBuf {
@@ -33,9 +33,13 @@ fn run(command: &mut Command) -> String {
     told
 }
 
+fn is_c(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|end| end == "c")
+}
+
 /// A program against the static library, so that it runs wherever it is.
 fn program(name: &str, options: &[&str]) -> Option<(tempfile::TempDir, PathBuf)> {
-    let compiler = if name.ends_with(".c") { "cc" } else { "c++" };
+    let compiler = if is_c(name) { "cc" } else { "c++" };
     if !cfg!(target_os = "linux") || !has(compiler) {
         return None;
     }
@@ -69,7 +73,7 @@ fn examples_run() {
     let mut count = 0;
     for file in std::fs::read_dir(here("examples")).expect("examples") {
         let name = file.expect("a file").file_name().into_string().expect("a name");
-        let standard = if name.ends_with(".c") { "-std=c99" } else { "-std=c++17" };
+        let standard = if is_c(&name) { "-std=c99" } else { "-std=c++17" };
         let Some((_folder, program)) = program(&format!("examples/{name}"), &[standard]) else { return };
         assert!(!run(&mut Command::new(program)).is_empty(), "{name}");
         count += 1;
