@@ -1,31 +1,31 @@
-## delone_triangulation: a Delaunay triangulation that is kept, and asked.
-##
-## t = delone_triangulation (P)
-## t = delone_triangulation (P, C)
-## t = delone_triangulation (P, C, "split")
-##
-## As `delaunayTriangulation` of Matlab. P has two or three columns; C has two indices of points of the plane a segment, which becomes
-## an edge. Segments that cross are an error, or get a vertex with "split".
-##
-##   t.Points, t.ConnectivityList, t.Constraints
-##   pointLocation (t, Q)         the row of the triangle of each place, NaN outside
-##   nearestNeighbor (t, Q)       the nearest point of each place, and its distance
-##   nearestNeighbors (t, Q, K)   the K nearest
-##   interpolate (t, V, Q, METHOD) "linear", "nearest", "laplace", "natural"
-##   neighbors (t)                the triangles across from each corner, NaN for none
-##   edges (t), freeBoundary (t)  edges, and those of the hull (in space triangles)
-##   isInterior (t)               for each triangle, whether an odd number of constraints is around it
-##   check (t)                    proves that it is Delaunay, or is an error
-##
-## Example:
-##
-##   t = delone_triangulation (rand (1000, 2));
-##   pointLocation (t, [.5 .5; 2 2])
-##   [v, d] = nearestNeighbor (t, [.5 .5])
-##
-## See also: delone_delaunay, delone_voronoi.
-
 classdef delone_triangulation
+
+  ## delone_triangulation: a Delaunay triangulation that is kept, and asked.
+  ##
+  ## t = delone_triangulation (P)
+  ## t = delone_triangulation (P, C)
+  ## t = delone_triangulation (P, C, "split")
+  ##
+  ## As `delaunayTriangulation` of Matlab. P has two or three columns; C has two indices of points of the plane a segment, which becomes
+  ## an edge. Segments that cross are an error, or get a vertex with "split".
+  ##
+  ##   t.Points, t.ConnectivityList, t.Constraints
+  ##   pointLocation (t, Q)         the row of the triangle of each place, NaN outside
+  ##   nearestNeighbor (t, Q)       the nearest point of each place, and its distance
+  ##   nearestNeighbors (t, Q, K)   the K nearest
+  ##   interpolate (t, V, Q, METHOD) "linear", "nearest", "laplace", "natural"
+  ##   neighbors (t)                the triangles across from each corner, NaN for none
+  ##   edges (t), freeBoundary (t)  edges, and those of the hull (in space triangles)
+  ##   isInterior (t)               for each triangle, whether an odd number of constraints is around it
+  ##   check (t)                    proves that it is Delaunay, or is an error
+  ##
+  ## Example:
+  ##
+  ##   t = delone_triangulation (rand (1000, 2));
+  ##   pointLocation (t, [.5 .5; 2 2])
+  ##   [v, d] = nearestNeighbor (t, [.5 .5])
+  ##
+  ## See also: delone_delaunay, delone_voronoi.
 
   properties (SetAccess = private)
     Points = zeros (0, 2);
@@ -180,8 +180,9 @@ endclassdef
 
 ## A copy is a value of its own; the triangulation goes with the last of them.
 %!test
-%! u = t;
-%! clear t
+%! first = delone_triangulation (p);
+%! u = first;
+%! clear first
 %! assert (pointLocation (u, [9 9]), NaN);
 
 %!error <crosses> delone_triangulation ([0 0; 1 0; 1 1; 0 1], [1 3; 2 4])
