@@ -1,4 +1,4 @@
-//! What went wrong, as a status and in the caller's own struct.
+//! Statuses, and the error in the struct of a caller.
 
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};

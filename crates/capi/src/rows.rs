@@ -93,7 +93,7 @@ impl Tri2 {
         }
         let open = |&t: &TriangleId| mesh.adjacent(t).into_iter().filter(|&t| rows.of(t) < 0).count();
         let border: usize = rows.triangles.iter().map(open).sum();
-        [(3 * rows.triangles.len() + border) / 2, border]
+        [usize::midpoint(3 * rows.triangles.len(), border), border]
     }
 
     fn is_constraint(&self, e: EdgeId) -> bool {

@@ -63,6 +63,17 @@ fn forks_threads_and_unloading() {
     assert_eq!(run(&mut Command::new(&program)), "all is well\n");
 }
 
+#[test]
+fn a_library_is_loaded_again_and_twice() {
+    let Some((folder, program)) = program("loading.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"]) else {
+        return;
+    };
+    let library = libraries().join("libdelone_capi.so");
+    let copy = folder.path().join("libother.so");
+    std::fs::copy(&library, &copy).expect("a copy");
+    assert_eq!(run(Command::new(&program).arg(library).arg(copy)), "all is well\n");
+}
+
 /// Where memory ends the library says so, and the program goes on.
 #[test]
 fn memory_that_cannot_be_had() {
