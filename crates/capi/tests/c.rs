@@ -33,15 +33,16 @@ fn run(command: &mut Command) -> String {
     told
 }
 
-/// A program of the folder of tests against the static library, so that it runs wherever it is.
+/// A program against the static library, so that it runs wherever it is.
 fn program(name: &str, options: &[&str]) -> Option<(tempfile::TempDir, PathBuf)> {
-    if !cfg!(target_os = "linux") || !has("cc") {
+    let compiler = if name.ends_with(".c") { "cc" } else { "c++" };
+    if !cfg!(target_os = "linux") || !has(compiler) {
         return None;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let to = folder.path().join("program");
-    let mut cc = Command::new("cc");
-    cc.args(options).arg("-I").arg(here("include")).arg(here("tests").join(name)).arg("-o").arg(&to);
+    let mut cc = Command::new(compiler);
+    cc.args(options).arg("-I").arg(here("include")).arg(here(name)).arg("-o").arg(&to);
     cc.arg(libraries().join("libdelone_capi.a")).args(["-lm", "-lpthread", "-ldl", "-lgcc_s"]);
     run(&mut cc);
     Some((folder, to))
@@ -50,13 +51,36 @@ fn program(name: &str, options: &[&str]) -> Option<(tempfile::TempDir, PathBuf)>
 #[test]
 fn a_program_in_c_does_everything() {
     let strict = ["-std=c89", "-pedantic", "-Wall", "-Wextra", "-Werror"];
-    let Some((_folder, program)) = program("library.c", &strict) else { return };
+    let Some((_folder, program)) = program("tests/library.c", &strict) else { return };
     assert_eq!(run(&mut Command::new(program)), "all is well\n");
 }
 
 #[test]
+fn a_program_in_cpp_does_everything() {
+    for standard in ["-std=c++17", "-std=c++20"] {
+        let strict = [standard, "-pedantic", "-Wall", "-Wextra", "-Werror"];
+        let Some((_folder, program)) = program("tests/hpp.cpp", &strict) else { return };
+        run(&mut Command::new(program));
+    }
+}
+
+#[test]
+fn examples_run() {
+    let mut count = 0;
+    for file in std::fs::read_dir(here("examples")).expect("examples") {
+        let name = file.expect("a file").file_name().into_string().expect("a name");
+        let standard = if name.ends_with(".c") { "-std=c99" } else { "-std=c++17" };
+        let Some((_folder, program)) = program(&format!("examples/{name}"), &[standard]) else { return };
+        assert!(!run(&mut Command::new(program)).is_empty(), "{name}");
+        count += 1;
+    }
+    assert!(count >= 5);
+}
+
+#[test]
 fn forks_threads_and_unloading() {
-    let Some((_folder, program)) = program("processes.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"])
+    let Some((_folder, program)) =
+        program("tests/processes.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"])
     else {
         return;
     };
@@ -65,7 +89,8 @@ fn forks_threads_and_unloading() {
 
 #[test]
 fn a_library_is_loaded_again_and_twice() {
-    let Some((folder, program)) = program("loading.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"]) else {
+    let Some((folder, program)) = program("tests/loading.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"])
+    else {
         return;
     };
     let library = libraries().join("libdelone_capi.so");
@@ -77,7 +102,8 @@ fn a_library_is_loaded_again_and_twice() {
 /// Where memory ends the library says so, and the program goes on.
 #[test]
 fn memory_that_cannot_be_had() {
-    let Some((_folder, program)) = program("memory.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"]) else {
+    let Some((_folder, program)) = program("tests/memory.c", &["-std=gnu11", "-Wall", "-Wextra", "-Werror"])
+    else {
         return;
     };
     assert_eq!(run(&mut Command::new(&program)), "all is well\n");
