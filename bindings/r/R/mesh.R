@@ -31,7 +31,7 @@ triangulate <- function(p, a = NULL, q = NULL, Y = FALSE, j = FALSE, D = FALSE, 
     holes = if (nrow(p$H) > 0 && nrow(p$S) > 0) p$H
   )
   if (is.function(a)) {
-    wishes$area_at <- function(x, y) as.double(a(x, y))
+    wishes$area_at <- a
   } else if (!is.null(a)) {
     wishes$max_area <- a
   }

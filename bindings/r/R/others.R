@@ -6,13 +6,13 @@ delaunayn <- function(p, options = NULL, output.options = NULL, full = FALSE) {
   simplices(triangulation(p))
 }
 
-interpp <- function(x, y, z, xo, yo, method = names(METHODS)) {
+interpp <- function(x, y, z, xo, yo, method = c("linear", "nearest", "laplace", "sibson")) {
   if (length(x) != length(z)) stop("x and z have different lengths")
   interpolate(triangulation(cbind(x, y)), z, cbind(xo, yo), match.arg(method))
 }
 
 interp <- function(x, y, z, xo = seq(min(x), max(x), length.out = nx), yo = seq(min(y), max(y), length.out = ny),
-                   method = names(METHODS), nx = 40, ny = 40) {
+                   method = c("linear", "nearest", "laplace", "sibson"), nx = 40, ny = 40) {
   places <- cbind(rep(xo, times = length(yo)), rep(yo, each = length(xo)))
   values <- interpp(x, y, z, places[, 1], places[, 2], match.arg(method))
   list(x = xo, y = yo, z = matrix(values, length(xo), length(yo)))

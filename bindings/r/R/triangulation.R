@@ -67,7 +67,7 @@ nearest <- function(t, places, k = 1) {
   if (k == 1) as.vector(found) else found
 }
 
-interpolate <- function(t, z, places, method = names(METHODS)) {
+interpolate <- function(t, z, places, method = c("linear", "nearest", "laplace", "sibson")) {
   method <- match.arg(method)
   if (!is.numeric(z)) stop("values are numbers")
   .Call(r_interpolate, handle_of(t), as.double(z), as_points(places, t$dimension), METHODS[[method]])

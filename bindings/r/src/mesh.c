@@ -33,10 +33,10 @@ static double area_at(void *user, double x, double y) {
     py = PROTECT(Rf_ScalarReal(y));
     call = PROTECT(Rf_lang3(w->area, px, py));
     value = R_tryEvalSilent(call, R_GlobalEnv, &failed);
-    if (failed || TYPEOF(value) != REALSXP || Rf_xlength(value) != 1) {
+    if (failed || !Rf_isNumeric(value) || Rf_xlength(value) != 1) {
         w->is_stopped = failed ? 1 : 2;
     } else {
-        area = REAL(value)[0];
+        area = Rf_asReal(value);
     }
     UNPROTECT(3);
     return area;

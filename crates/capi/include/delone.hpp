@@ -1,7 +1,7 @@
 // delone.hpp: exact Delaunay triangulation for C++17. Header only; link with libdelone.
 //
 // Points are any contiguous range whose elements begin with two numbers (three in space): std::array, std::pair, structs, std::complex,
-// points of Eigen, glm or CGAL. They are read where they are. Errors are exceptions of type delone::error; `try_triangulate` and its
+// points of Eigen, glm or CGAL; or a matrix of Eigen. They are read where they are. Errors are exceptions of type delone::error; `try_triangulate` and its
 // like throw none. Any number of threads may ask one triangulation; while one changes it, no other may.
 #ifndef DELONE_HPP
 #define DELONE_HPP

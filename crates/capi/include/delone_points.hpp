@@ -129,6 +129,11 @@ template <class T, class N, class = void> constexpr bool has_rows = false;
 template <class T, class N> constexpr bool has_rows<T, N, std::void_t<decltype(std::declval<const T &>()[0])>> =
     is_number<decltype(std::declval<const T &>()[0]), N>;
 
+/// Matrices of Eigen, of either order, their blocks and maps: a row a point.
+template <class M, class = void> constexpr bool is_matrix = false;
+template <class M> constexpr bool is_matrix<M, std::void_t<decltype(std::declval<const M &>().rowStride(), std::declval<const M &>().colStride(),
+                                                                    std::declval<const M &>().data())>> = true;
+
 template <class T, class N> constexpr bool is_pair = std::is_same_v<T, std::pair<N, N>> || std::is_same_v<T, std::complex<N>>;
 
 } // namespace detail
@@ -147,10 +152,17 @@ template <std::size_t D> class points_in {
 
 public:
     /// A contiguous range whose elements begin with D numbers, all double or all float.
-    template <class R, class E = element<R>, class = std::enable_if_t<fits<R, double> || fits<R, float>>>
+    template <class R, class E = element<R>, class = std::enable_if_t<(fits<R, double> || fits<R, float>) && !detail::is_matrix<R>>>
     points_in(const R &range) noexcept {
         using N = std::conditional_t<fits<R, double>, double, float>;
         set(reinterpret_cast<const N *>(std::data(range)), std::size(range), sizeof(E));
+    }
+    /// A matrix of Eigen with D columns.
+    template <class M, std::enable_if_t<detail::is_matrix<M>, int> = 0> points_in(const M &matrix) {
+        if (static_cast<std::size_t>(matrix.cols()) != D) fail(DELONE_ARGUMENT, -1, "a matrix with a column for each coordinate is needed");
+        const auto *x = matrix.data();
+        auto stride = static_cast<std::size_t>(matrix.rowStride()) * sizeof *x;
+        set(x, x + matrix.colStride(), D == 3 ? x + 2 * matrix.colStride() : nullptr, static_cast<std::size_t>(matrix.rows()), stride);
     }
     /// Pointers to the first coordinates, how many points there are, and from one to the next so many bytes.
     template <class N, std::size_t P = D, class = std::enable_if_t<P == 2 && (std::is_same_v<N, double> || std::is_same_v<N, float>)>>

@@ -62,6 +62,17 @@ private:
     double at_[2];
 };
 
+/// As matrices of Eigen are: of two columns, one after the other.
+struct matrix {
+    const std::vector<double> &numbers;
+    std::ptrdiff_t columns = 2;
+    const double *data() const { return numbers.data(); }
+    std::ptrdiff_t rows() const { return static_cast<std::ptrdiff_t>(numbers.size()) / columns; }
+    std::ptrdiff_t cols() const { return columns; }
+    std::ptrdiff_t rowStride() const { return 1; }
+    std::ptrdiff_t colStride() const { return rows(); }
+};
+
 template <class T> constexpr bool is_plane = std::is_constructible_v<delone::points2, std::vector<T>>;
 static_assert(is_plane<named_point> && is_plane<point_inside> && is_plane<float_point> && is_plane<with_methods>);
 static_assert(is_plane<std::pair<double, double>> && is_plane<std::complex<double>> && is_plane<std::array<double, 3>>);
@@ -140,6 +151,10 @@ static void ranges() {
     CHECK(set_of(delone::triangulation(x.data(), y.data(), x.size())) == expected);
     CHECK(set_of(delone::triangulation(&named[0].x, &named[0].y, named.size(), sizeof named[0])) == expected);
     CHECK(set_of(delone::triangulation(t.points())) == expected);
+    auto columns = x;
+    columns.insert(columns.end(), y.begin(), y.end());
+    CHECK(set_of(delone::triangulation(matrix{columns})) == expected);
+    THROWS(DELONE_ARGUMENT, -1, delone::triangulation(matrix{columns, 4}));
     std::vector<float_point> floats{{0, 0}, {1, 0}, {0, 1}};
     CHECK(delone::triangulation(floats).size() == 1);
     THROWS(DELONE_ARGUMENT, -1, delone::xy(std::vector<double>{1, 2, 3}));
