@@ -23,7 +23,7 @@ pub(crate) fn has(program: &str) -> bool {
     found
 }
 
-/// What a program prints. It must succeed, and say nothing on standard error.
+/// The output of a program. It must succeed, and say nothing on standard error.
 pub(crate) fn run(command: &mut Command) -> String {
     let output = command.output().expect("it runs");
     let [told, wrong] =
