@@ -47,8 +47,9 @@ fn the_header_does_all_that_it_says() {
     let folder = tempfile::tempdir().expect("a folder");
     let program = folder.path().join("program");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hpp.cpp");
-    for compiler in compilers() {
-        for standard in STANDARDS {
+    for (i, compiler) in compilers().into_iter().enumerate() {
+        // The later standard by one of them: each takes seconds.
+        for standard in &STANDARDS[..if i == 0 { 2 } else { 1 }] {
             compile(compiler, &[standard, "-pthread"], &source, &program);
             assert_eq!(run(&program), "0 failures\n", "{compiler} {standard}");
         }
