@@ -14,8 +14,9 @@ const STRICT: [&str; 5] = ["-pthread", "-Wall", "-Wextra", "-Wpedantic", "-Werro
 
 #[test]
 fn the_header_does_all_that_it_says() {
-    for compiler in COMPILERS {
-        for standard in STANDARDS {
+    for (i, compiler) in COMPILERS.into_iter().enumerate() {
+        // The later standard by one of them: each takes seconds.
+        for standard in STANDARDS.into_iter().take(2 - i) {
             let options = [&STRICT[..], &[standard]].concat();
             let Some((_folder, program)) = program(compiler, &here("tests/hpp.cpp"), &options) else {
                 continue;
