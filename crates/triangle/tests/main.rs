@@ -1,0 +1,1 @@
+//! The C interface, called as C calls it.
