@@ -43,23 +43,26 @@ fn key([a, b]: [usize; 2]) -> [usize; 2] {
 impl Again {
     pub(crate) fn new(input: &Input, given: Given, s: &Switches) -> Result<Self, Fault> {
         let Given { mut triangles, attributes, attribute_count, areas } = given;
-        for corners in &mut triangles {
+        for (row, corners) in triangles.iter_mut().enumerate() {
             let [a, b, c] = corners.map(|v| input.points[v]);
-            if orient2d(a, b, c).is_negative() {
+            let turn = orient2d(a, b, c);
+            if turn.is_zero() {
+                return Err(Fault::at(Status::Argument, row, format!("triangle {row} has no area")));
+            }
+            if turn.is_negative() {
                 corners.swap(1, 2);
             }
         }
+        check_sides(&triangles)?;
         let sides = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]].map(key);
         let mut edges: Vec<[usize; 2]> = triangles.iter().flat_map(sides).collect();
         edges.sort_unstable();
         let runs = edges.chunk_by(|p, q| p == q);
         let border: Vec<[usize; 2]> = runs.filter(|run| run.len() % 2 == 1).map(|run| run[0]).collect();
         let (segments, origins) = segments(&input.segments, &border);
-        edges.extend(input.segments.iter().map(|&ends| key(ends)));
-        edges.sort_unstable();
         edges.dedup();
         let before = Constrained2::with_crossings(&input.points, &edges, Crossings::Split)?;
-        let rows = rows(&before, &triangles);
+        let rows = rows(&before, &triangles)?;
         let triangles = triangles.into_iter().map(|corners| corners.map(VertexId::new)).collect();
         let again = Self { triangles, before, rows, segments, origins, attributes, attribute_count, areas };
         if s.max_vertices.is_none() {
@@ -141,6 +144,20 @@ impl Again {
     }
 }
 
+/// Refuses triangles that are on the same side of an edge.
+fn check_sides(triangles: &[[usize; 3]]) -> Result<(), Fault> {
+    let sides = |(row, &[a, b, c]): (usize, &[usize; 3])| [([a, b], row), ([b, c], row), ([c, a], row)];
+    let mut sides: Vec<([usize; 2], usize)> = triangles.iter().enumerate().flat_map(sides).collect();
+    sides.sort_unstable();
+    match sides.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| (pair[1].1, pair[0].1)).min() {
+        None => Ok(()),
+        Some((row, other)) => {
+            let words = format!("triangles {other} and {row} are on the same side of an edge");
+            Err(Fault::at(Status::Argument, row, words))
+        }
+    }
+}
+
 /// The segments of the new mesh, and the row of each in the input. Even-odd parity tells what is inside: sides of the border are there
 /// once, other segments twice.
 fn segments(given: &[[usize; 2]], border: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<Option<usize>>) {
@@ -161,8 +178,8 @@ fn segments(given: &[[usize; 2]], border: &[[usize; 2]]) -> (Vec<[usize; 2]>, Ve
     once.iter().chain(&twice).chain(&twice).copied().chain(missing).unzip()
 }
 
-/// The row of each triangle of a mesh, by slot. Of equal ones the first counts.
-fn rows(mesh: &Constrained2, triangles: &[[usize; 3]]) -> Vec<usize> {
+/// The row of each triangle of a mesh, by slot.
+fn rows(mesh: &Constrained2, triangles: &[[usize; 3]]) -> Result<Vec<usize>, Fault> {
     let sorted = |mut corners: [usize; 3]| {
         corners.sort_unstable();
         corners
@@ -170,12 +187,20 @@ fn rows(mesh: &Constrained2, triangles: &[[usize; 3]]) -> Vec<usize> {
     let mut order: Vec<([usize; 3], usize)> =
         triangles.iter().zip(0..).map(|(&t, row)| (sorted(t), row)).collect();
     order.sort_unstable();
-    let mut rows = vec![NO_ROW; mesh.slot_count()];
+    let (mut rows, mut is_there) = (vec![NO_ROW; mesh.slot_count()], vec![false; triangles.len()]);
     for t in mesh.triangle_ids() {
         let corners = sorted(mesh.corners(t).map(|v| v.index()));
         let at = order.partition_point(|(other, _)| *other < corners);
-        rows[t.index()] =
-            order.get(at).filter(|(other, _)| *other == corners).map_or(NO_ROW, |&(_, row)| row);
+        if let Some(&(_, row)) = order.get(at).filter(|(other, _)| *other == corners) {
+            rows[t.index()] = row;
+            is_there[row] = true;
+        }
     }
-    rows
+    match is_there.iter().position(|is_there| !is_there) {
+        None => Ok(rows),
+        Some(row) => {
+            let words = format!("triangle {row} has a point or a side of another one inside");
+            Err(Fault::at(Status::Argument, row, words))
+        }
+    }
 }
