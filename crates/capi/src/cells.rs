@@ -57,7 +57,12 @@ pub(crate) unsafe extern "C" fn delone_tri2_voronoi(
                 return Err(Failure::argument("cells are for triangulations without segments and weights"));
             };
             let region = region(given, d.points())?;
-            give(out, run(|| Ok(Cells { cells: d.voronoi().clip(&region), count: d.points().len() })))
+            give(
+                out,
+                run(d.points().len(), || {
+                    Ok(Cells { cells: d.voronoi().clip(&region), count: d.points().len() })
+                }),
+            )
         }
     })
 }

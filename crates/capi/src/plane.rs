@@ -132,7 +132,7 @@ pub(crate) unsafe extern "C" fn delone_tri2_new(
             let points = read::<2>(points, MAX_POINTS)?;
             memory::check(points.len(), memory::PLANE_BYTES)?;
             let points = points.into_owned();
-            give(out, run(|| Ok(Tri2::new(Kind::Plain(Delaunay2::from_vec(points)?)))))
+            give(out, run(points.len(), || Ok(Tri2::new(Kind::Plain(Delaunay2::from_vec(points)?)))))
         }
     })
 }
@@ -154,7 +154,7 @@ pub(crate) unsafe extern "C" fn delone_constrained2_new(
             let (points, segments) = graph(points, segments, segment_count)?;
             give(
                 out,
-                run(|| {
+                run(points.len(), || {
                     let c = Constrained2::with_crossings(&points, &segments, crossings)?;
                     Ok(Tri2::new(Kind::Constrained(c)))
                 }),
@@ -180,7 +180,7 @@ pub(crate) unsafe extern "C" fn delone_regular2_new(
             let points = points.into_owned();
             give(
                 out,
-                run(|| {
+                run(points.len(), || {
                     let r = Regular2::from_parts(&points, weights)?;
                     Ok(Tri2::new(Kind::Regular(r, points)))
                 }),

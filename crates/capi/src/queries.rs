@@ -24,7 +24,7 @@ pub(crate) fn each_task<Q: Sync, A: Send>(
     task: impl Fn(&[Q]) -> Result<Vec<A>, Failure> + Sync + Send,
 ) -> Result<Vec<A>, Failure> {
     let tasks: Vec<&[Q]> = places.chunks(TASK_PLACES).collect();
-    let answers = run(|| delone_pool::shared(&tasks, 1, |places| task(places)))?;
+    let answers = run(places.len(), || delone_pool::shared(&tasks, 1, |places| task(places)))?;
     Ok(answers.into_iter().flatten().collect())
 }
 

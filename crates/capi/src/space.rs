@@ -73,7 +73,7 @@ pub(crate) unsafe extern "C" fn delone_tri3_new(
             let points = read::<3>(points, MAX_POINTS_IN_SPACE)?;
             memory::check(points.len(), memory::SPACE_BYTES)?;
             let points = points.into_owned();
-            give(out, run(|| Ok(Tri3::new(points)?)))
+            give(out, run(points.len(), || Ok(Tri3::new(points)?)))
         }
     })
 }

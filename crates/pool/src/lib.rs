@@ -5,6 +5,8 @@
 //! to the next one: a binding calls [`after_fork`] there. The pool of the parent is never looked at again: to drop it would be to wait for
 //! threads that do not exist, and it may be locked by one of them.
 
+mod fork;
+
 use std::cell::OnceCell;
 use std::num::NonZero;
 use std::sync::OnceLock;
@@ -12,6 +14,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+
+pub use fork::survive_forks;
 
 /// Items, up to which the calling thread does the work: the library would cut it into one part anyway.
 pub const SERIAL_ITEMS: usize = 20_000;
@@ -94,6 +98,14 @@ pub fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
         Some(pool) => pool.install(work),
         None => work(),
     })
+}
+
+/// Does work on so many items: in the pool, or on the calling thread where there are too few to be shared.
+pub fn run<T: Send>(items: usize, work: impl FnOnce() -> T + Send) -> T {
+    match pool().filter(|_| items >= SERIAL_ITEMS) {
+        Some(pool) => pool.install(work),
+        None => alone(work),
+    }
 }
 
 /// To be called in the child of a fork, which has one thread.
