@@ -175,6 +175,8 @@ int32_t delone_tri2_hull(const delone_tri2 *t, uint32_t *ends);
 int32_t delone_tri2_stars(const delone_tri2 *t, size_t *starts, uint32_t *neighbors);
 /* The region of each triangle of a mesh, by its row in the options; -1 for none. */
 int32_t delone_tri2_regions(const delone_tri2 *t, int32_t *regions);
+/* How many triangles of a mesh are not as wanted, because no angle there can be larger, or no vertex is allowed. */
+int32_t delone_tri2_left(const delone_tri2 *t, size_t *count);
 /* For each point the vertex at its place: itself, but for duplicates. */
 int32_t delone_tri2_vertices(const delone_tri2 *t, uint32_t *vertices);
 

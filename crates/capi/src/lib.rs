@@ -11,7 +11,7 @@
 //! | `space` | tetrahedra |
 //! | `points`, `failure`, `memory`, `run` | input, errors, memory and threads, the same way for all |
 //!
-//! A function checks its pointers, makes slices of them, and leaves the rest to safe code. Whatever it does runs under [`failure::guard`]: no
+//! A function checks its pointers, makes slices of them, and leaves the rest to safe code. Whatever it does runs under `failure::guard`: no
 //! panic crosses into C.
 
 // Pointers of C are followed here, and nowhere else in the project.

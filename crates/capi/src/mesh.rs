@@ -202,7 +202,7 @@ pub(crate) unsafe extern "C" fn delone_mesh2_new(
             let (points, segments) = graph(points, segments, segment_count)?;
             let mut c = run(|| Constrained2::with_crossings(&points, &segments, crossings))?;
             let refined = refine(&mut c, &options)?;
-            give(out, Ok(Tri2::new(Kind::Mesh(c, refined.domains))))
+            give(out, Ok(Tri2::new(Kind::Mesh(c, Box::new(refined)))))
         }
     })
 }

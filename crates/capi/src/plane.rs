@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use delone::MAX_POINTS;
-use delone::{Constrained2, Crossings, Delaunay2, Domains2, Mesh2, Regular2, TriangleId};
+use delone::{Constrained2, Crossings, Delaunay2, Mesh2, Refined2, Regular2, TriangleId};
 
 use crate::failure::{CError, Failure, guard};
 use crate::memory;
@@ -24,8 +24,8 @@ pub(crate) struct Tri2 {
 pub(crate) enum Kind {
     Plain(Delaunay2),
     Constrained(Constrained2),
-    /// With what is inside.
-    Mesh(Constrained2, Domains2),
+    /// With what is inside, and what is not as wanted.
+    Mesh(Constrained2, Box<Refined2>),
     /// With all points, those of hidden sites, too.
     Regular(Regular2, Vec<[f64; 2]>),
 }
@@ -69,7 +69,7 @@ impl Tri2 {
         self.rows.get_or_init(|| {
             let mesh = self.mesh();
             let is_inside = |t: &TriangleId| match &self.kind {
-                Kind::Mesh(_, domains) => domains.is_inside(*t),
+                Kind::Mesh(_, refined) => refined.domains.is_inside(*t),
                 _ => true,
             };
             let triangles: Vec<TriangleId> = mesh.triangles().filter(is_inside).collect();

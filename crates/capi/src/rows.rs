@@ -1,6 +1,6 @@
 //! Counts, points, triangles, edges and stars of a triangulation of the plane.
 
-use delone::{Dimension, EdgeId, TriangleId, VertexId};
+use delone::{Dimension, EdgeId, Refined2, TriangleId, VertexId};
 
 use crate::failure::{CError, Failure, Status, guard};
 use crate::plane::{Kind, Tri2};
@@ -244,14 +244,29 @@ pub(crate) unsafe extern "C" fn delone_tri2_regions(t: *const Tri2, regions: *mu
         // SAFETY: `delone.h` promises a handle, and room for a number a triangle.
         unsafe {
             let t = handle(t)?;
-            let Kind::Mesh(_, domains) = &t.kind else {
-                return Err(Failure::new(Status::Dimension, "only meshes have regions"));
-            };
-            let region = |row: &TriangleId| domains.region(*row).map_or(-1, |region| region as i32);
+            let refined = mesh(t)?;
+            let region = |row: &TriangleId| refined.domains.region(*row).map_or(-1, |region| region as i32);
             write(regions, t.rows().triangles.iter().map(region));
         }
         Ok(())
     })
+}
+
+#[unsafe(no_mangle)]
+pub(crate) unsafe extern "C" fn delone_tri2_left(t: *const Tri2, count: *mut usize) -> i32 {
+    guard(std::ptr::null_mut(), || {
+        // SAFETY: `delone.h` promises a handle, and room for a number.
+        unsafe { write(count, std::iter::once(mesh(handle(t)?)?.report.left.len())) };
+        Ok(())
+    })
+}
+
+/// A mesh, and no other triangulation.
+fn mesh(t: &Tri2) -> Result<&Refined2, Failure> {
+    match &t.kind {
+        Kind::Mesh(_, refined) => Ok(refined),
+        _ => Err(Failure::new(Status::Dimension, "it is no mesh")),
+    }
 }
 
 #[unsafe(no_mangle)]

@@ -2,50 +2,16 @@
 //!
 //! Where there is no C compiler these tests say so and pass.
 
+mod tools;
+
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
-/// The folder that cargo puts the library in.
-fn libraries() -> PathBuf {
-    let test = std::env::current_exe().expect("a path");
-    test.ancestors().nth(2).expect("deps is in a folder").to_owned()
-}
+use tools::{has, here, libraries, run};
 
-fn here(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
-}
-
-fn has(program: &str) -> bool {
-    let found = Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
-    if !found {
-        println!("skipped: there is no {program}");
-    }
-    found
-}
-
-fn run(command: &mut Command) -> String {
-    let output = command.output().expect("it runs");
-    let [told, wrong] =
-        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success(), "{command:?}: {:?}\n{told}{wrong}", output.status);
-    assert!(wrong.is_empty(), "{command:?} printed: {wrong}");
-    told
-}
-
-/// A program against the static library, so that it runs wherever it is.
 fn program(name: &str, options: &[&str]) -> Option<(tempfile::TempDir, PathBuf)> {
-    let compiler = if name.ends_with(".c") { "cc" } else { "c++" };
-    if !cfg!(target_os = "linux") || !has(compiler) {
-        return None;
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let to = folder.path().join("program");
-    let mut cc = Command::new(compiler);
-    cc.args(options).arg("-I").arg(here("include")).arg(here(name)).arg("-o").arg(&to);
-    cc.arg(libraries().join("libdelone_capi.a")).args(["-lm", "-lpthread", "-ldl", "-lgcc_s"]);
-    run(&mut cc);
-    Some((folder, to))
+    tools::program("cc", &here(name), options)
 }
 
 #[test]
@@ -56,25 +22,9 @@ fn a_program_in_c_does_everything() {
 }
 
 #[test]
-fn a_program_in_cpp_does_everything() {
-    for standard in ["-std=c++17", "-std=c++20"] {
-        let strict = [standard, "-pedantic", "-Wall", "-Wextra", "-Werror"];
-        let Some((_folder, program)) = program("tests/hpp.cpp", &strict) else { return };
-        run(&mut Command::new(program));
-    }
-}
-
-#[test]
-fn examples_run() {
-    let mut count = 0;
-    for file in std::fs::read_dir(here("examples")).expect("examples") {
-        let name = file.expect("a file").file_name().into_string().expect("a name");
-        let standard = if name.ends_with(".c") { "-std=c99" } else { "-std=c++17" };
-        let Some((_folder, program)) = program(&format!("examples/{name}"), &[standard]) else { return };
-        assert!(!run(&mut Command::new(program)).is_empty(), "{name}");
-        count += 1;
-    }
-    assert!(count >= 5);
+fn the_example_runs() {
+    let Some((_folder, program)) = program("examples/triangulate.c", &["-std=c99"]) else { return };
+    assert_eq!(run(&mut Command::new(program)).lines().count(), 4);
 }
 
 #[test]

@@ -220,6 +220,7 @@ static void meshes(void) {
     IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == 0);
     is_good(t, 2 - 0.0625);
     IS(counts_of(t).simplices > 200 && delone_tri2_check(t, &e) == 0);
+    IS(delone_tri2_left(t, &n) == 0 && n == 0);
     IS(delone_tri2_insert(t, &p, NULL, &e) == DELONE_ARGUMENT);
     delone_tri2_free(t);
     o.fill = DELONE_FILL_SEEDS, o.holes = holes, o.hole_count = 1, o.regions = &region, o.region_count = 1, o.max_area = 0;
@@ -247,6 +248,10 @@ static void meshes(void) {
         IS(status == DELONE_STOPPED && t == NULL);
     }
     IS(i > 1);
+    delone_tri2_free(t);
+    o.progress = NULL, o.max_vertices = 5;
+    IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == 0 && counts_of(t).points == 8 + 5);
+    IS(delone_tri2_left(t, &n) == 0 && n > 0);
     delone_tri2_free(t);
     o.size = 3;
     IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == DELONE_ARGUMENT);
@@ -286,6 +291,26 @@ static void space(void) {
     free(corners), free(neighbors), delone_tri3_free(t);
 }
 
+/* Points on a line have edges and stars, and no triangle. */
+static void on_a_line(void) {
+    static const double xy[] = {0, 0, 3, 3, 1, 1, 2, 2};
+    delone_points p = delone_xy(xy, 4);
+    delone_tri2 *t;
+    delone_counts c;
+    size_t starts[5], n;
+    uint32_t stars[6], ends[6];
+    int64_t row;
+    IS(delone_tri2_new(&p, &t, NULL) == 0);
+    c = counts_of(t);
+    IS(c.dimension == 1 && c.vertices == 4 && c.simplices == 0 && c.edges == 3 && c.hull == 0);
+    IS(delone_tri2_edges(t, ends, NULL) == 0 && delone_tri2_stars(t, starts, stars) == 0 && starts[4] == 6);
+    IS(starts[1] == 1 && stars[0] == 2);
+    p.count = 1;
+    IS(delone_tri2_locate(t, &p, &row, NULL) == 0 && row == -1);
+    IS(delone_tri2_left(t, &n) == DELONE_DIMENSION);
+    delone_tri2_free(t);
+}
+
 static void wrong(void) {
     double xy[] = {0, 0, 1, 0, 0, 1, 5, 5}, weights[] = {0, 0, 0, -10};
     uint32_t segments[] = {0, 1, 1, 9};
@@ -322,7 +347,9 @@ static void wrong(void) {
     c.size = 4;
     IS(delone_tri2_counts(t, &c) == DELONE_ARGUMENT && delone_tri2_counts(NULL, &c) == DELONE_ARGUMENT);
     IS(delone_tri2_counts(t, NULL) == DELONE_ARGUMENT && delone_tri2_points(NULL, NULL) == NULL);
-    delone_tri2_free(t), delone_tri2_free(NULL), delone_tri3_free(NULL), delone_cells_free(NULL);
+    delone_tri2_free(t);
+    on_a_line();
+    delone_tri2_free(NULL), delone_tri3_free(NULL), delone_cells_free(NULL);
     xy[6] = xy[7] = 0.25; /* hidden by the others */
     IS(delone_regular2_new(&p, weights, &t, &e) == 0 && counts_of(t).vertices == 3 && delone_tri2_check(t, &e) == 0);
     delone_tri2_free(t);

@@ -145,10 +145,13 @@ fn parts(lines: &[Vec<[f64; 2]>]) -> Lines {
     (points, segments, of)
 }
 
+/// Lines, and the lower left and upper right corner of a box.
+type Case = (&'static [&'static [[f64; 2]]], [[f64; 2]; 2]);
+
 /// Cells that no site tells of at first: they come in over the rim, or from pieces whose ends are far away.
 #[test]
 fn cells_are_found_beyond_the_rim() {
-    let cases: [(&[&[[f64; 2]]], [[f64; 2]; 2]); 3] = [
+    let cases: [Case; 3] = [
         (&[&[[3.0, 3.0], [4.0, 4.0]], &[[2.0, 3.0], [1.0, 8.0]]], [[3.0, 3.0], [6.0, 6.0]]),
         (&[&[[5.0, 0.0], [5.0, 6.0]], &[[0.0, 7.0], [4.0, 8.0]]], [[3.0, 3.0], [6.0, 6.0]]),
         (

@@ -2,6 +2,7 @@
 
 mod again;
 mod arcs;
+mod asked;
 mod bounds;
 mod coarsen;
 mod ends;

@@ -222,6 +222,18 @@ impl<'a> Refinement<'a> {
 
     /// Triangles are refined as long as this says so, of the corners, counter-clockwise from the shortest side on, and of the area. If
     /// [`Self::max_vertices`] says nothing, it ends at the larger of 2^21 new vertices and 64 a point; [`super::Reason::Budget`] tells.
+    ///
+    /// ```
+    /// use delone::{Constrained2, Refinement};
+    ///
+    /// let mut c = Constrained2::from_parts(&[[0, 0], [4, 0], [4, 4], [0, 4]], &[])?;
+    /// let near = |[x, y]: [f64; 2]| x.hypot(y) < 1.0;
+    /// let refused = |corners: [[f64; 2]; 3], area: f64| area > 0.01 && corners.into_iter().any(near);
+    /// Refinement::new().refine_if(&refused).run(&mut c)?;
+    /// let corners = |t| c.mesh().corners(t).map(|v| c.point(v));
+    /// assert!(c.triangle_ids().all(|t| !refused(corners(t), c.area(t))));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
     #[must_use]
     pub fn refine_if(self, is_to_be_refined: Test<'a>) -> Self {
         Self { refine_if: Some(is_to_be_refined), ..self }
