@@ -30,6 +30,7 @@ triangulation <- function(p, segments = NULL, weights = NULL, crossings = c("ref
   if (!is.null(weights)) {
     if (!is.numeric(weights) || length(weights) != nrow(p)) stop("one weight a point is needed")
     weights <- as.double(weights)
+    if (!all(is.finite(weights))) stop("weight ", which(!is.finite(weights))[1], " is not finite")
   }
   handle <- .Call(r_new, p, segments, weights, crossings == "split")
   structure(list(handle = handle, dimension = ncol(p)), class = "delone")

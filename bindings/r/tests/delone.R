@@ -70,6 +70,7 @@ refuses(edges(s), "of the plane")
 # Weights hide points.
 square <- cbind(c(0, 4, 4, 0), c(0, 0, 4, 4))
 stopifnot(nrow(simplices(triangulation(rbind(square, c(2, 2)), weights = c(0, 0, 0, 0, -100)))) == 2)
+refuses(triangulation(square, weights = c(0, NaN, 0, 0)), "weight 2 is not finite")
 
 # Segments.
 refuses(triangulation(square, rbind(c(1, 3), c(2, 4))), "segment [12] crosses")
