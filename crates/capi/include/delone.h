@@ -28,7 +28,7 @@ extern "C" {
 #define DELONE_NOT_FINITE 2 /* a coordinate that is NaN or infinite: `index` is the point */
 #define DELONE_CROSSING 3   /* segments cross: `index` is the first of them */
 #define DELONE_INDEX 4      /* an index out of range: `index` is its row */
-#define DELONE_TOO_MANY 5   /* more points than 2^29, or more vertices than allowed */
+#define DELONE_TOO_MANY 5   /* more points than 2^29, in space 2^27 */
 #define DELONE_MEMORY 6     /* there is no memory */
 #define DELONE_STOPPED 7    /* the callback of the caller said so */
 #define DELONE_DIMENSION 8  /* the points do not span the plane, or the handle has no such rows */
@@ -119,7 +119,7 @@ int32_t delone_regular2_new(const delone_points *points, const double *weights, 
 typedef struct delone_region {
     double at[2];
     double attribute;
-    double max_area; /* 0: none of its own */
+    double max_area; /* 0: none of its own; not negative */
 } delone_region;
 
 /*
@@ -135,7 +135,7 @@ typedef struct delone_mesh_options {
     double max_area;
     double max_edge;
     double min_edge;      /* no edge with a new vertex is shorter */
-    size_t max_vertices;  /* 0: no bound but the library's */
+    size_t max_vertices;  /* new ones; 0: no bound but the library's. At the bound the mesh is as it is: see delone_tri2_left */
     const double *holes;  /* x, y of a point in each hole, of DELONE_FILL_SEEDS */
     size_t hole_count;
     const delone_region *regions;
@@ -190,16 +190,17 @@ int32_t delone_tri2_nearest(const delone_tri2 *t, const delone_points *places, u
 #define DELONE_LAPLACE 2
 #define DELONE_SIBSON 3 /* natural neighbors */
 
-/* The value at each place, of one value a point; NaN outside of the hull. */
+/* The value at each place, of one value a point; NaN outside of the hull, or of the mesh. With segments linear and nearest only, and not with
+ * weights. */
 int32_t delone_tri2_interpolate(const delone_tri2 *t, const double *values, size_t value_count, const delone_points *places, int32_t how,
                                 double *out, delone_error *error);
 
 /* Proves that it is Delaunay, constrained Delaunay or regular. */
 int32_t delone_tri2_check(const delone_tri2 *t, delone_error *error);
 
-/* Inserts points into a triangulation without weights, and tells their indices: `ids` may be NULL. */
+/* Inserts points, and tells their indices: `ids` may be NULL. Meshes and triangulations with weights stay as they are: DELONE_ARGUMENT. */
 int32_t delone_tri2_insert(delone_tri2 *t, const delone_points *points, uint32_t *ids, delone_error *error);
-/* Removes vertices. */
+/* Removes vertices, all or, if one is none, none: `index` is its row. As above. */
 int32_t delone_tri2_remove(delone_tri2 *t, const uint32_t *vertices, size_t count, delone_error *error);
 
 /* --- Voronoi cells ---------------------------------------------------------------------------------------------------------------- */

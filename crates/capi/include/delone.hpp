@@ -134,6 +134,12 @@ public:
     }
     /// How many triangles there are.
     std::size_t size() const { return counts().simplices; }
+    /// How many triangles of a mesh are not as wanted.
+    std::size_t left() const {
+        std::size_t count = 0;
+        raise(delone_tri2_left(raw(), &count));
+        return count;
+    }
 
     /// All points, those given and then new ones; valid until the triangulation is changed.
     view<point> points() const {

@@ -231,6 +231,10 @@ static void meshes(void) {
     IS(n > 180 && delone_tri2_regions(t, regions) == 0);
     for (i = 0; i < n; i++) IS(regions[i] == 0);
     free(regions), delone_tri2_free(t);
+    region.max_area = -1;
+    IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == DELONE_ARGUMENT && strstr(e.message, "region") != NULL);
+    region.max_area = 1e-300;
+    IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == DELONE_ARGUMENT);
     o.region_count = 0, o.user = &calls, o.unsuitable = too_large;
     IS(delone_mesh2_new(&p, segments, 8, &o, &t, &e) == 0 && calls > 500);
     IS(counts_of(t).simplices > 400);

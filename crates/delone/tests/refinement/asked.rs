@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use delone::{Constrained2, Fill, Reason, Refined2, Refinement};
+use delone::{Constrained2, Error, Fill, Reason, Refined2, Refinement, RegionSeed2, Seeds2};
 
 /// A square with a hole.
 fn frame() -> Constrained2 {
@@ -61,5 +61,19 @@ fn who_is_never_content_meets_the_bound_of_vertices() {
         // Short edges come first, so some triangles get too small to be divided before the bound is met.
         assert_eq!(made.report.left.len(), made.report.triangles, "at {most}");
         assert!(made.report.left_for(Reason::Budget) > 0);
+    }
+}
+
+/// Bounds of regions are bounds: they are refused as those of the whole.
+#[test]
+fn sizes_of_regions_that_are_none_are_refused() {
+    let points = [[0, 0], [1, 0], [1, 1], [0, 1]];
+    let segments = [[0, 1], [1, 2], [2, 3], [3, 0]];
+    for area in [-1.0, 0.0, f64::NAN, 1e-300] {
+        let region = RegionSeed2::new([0.5, 0.5]).max_area(area);
+        let seeds = Seeds2::default().regions(vec![region]);
+        let mut c = Constrained2::from_parts(&points, &segments).expect("a square");
+        let refused = Refinement::new().fill(Fill::Seeds(&seeds)).run(&mut c);
+        assert!(matches!(refused, Err(Error::Parameter { .. })), "{area}");
     }
 }

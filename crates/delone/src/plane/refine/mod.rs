@@ -197,6 +197,25 @@ impl Refinement<'_> {
                 return Err(Error::Parameter { name, value, range });
             }
         }
+        let mut areas = vec![0.0; domains.regions.len()];
+        for t in c.triangle_ids().filter(|&t| domains.is_inside(t)) {
+            domains.region(t).into_iter().for_each(|region| areas[region] += c.area(t));
+        }
+        for (known, area) in domains.regions.iter().zip(areas) {
+            let bounds = [
+                ("max_area of a region", known.max_area, known.max_area),
+                ("max_edge of a region", known.max_edge, known.max_edge.map(equilateral)),
+            ];
+            for (name, value, largest) in bounds {
+                let (Some(value), Some(largest)) = (value, largest) else { continue };
+                if value.is_nan() || value <= 0.0 {
+                    return Err(Error::Parameter { name, value, range: "positive" });
+                }
+                if self.max_vertices.is_none() && area > largest * (2 * MAX_POINTS) as f64 {
+                    return Err(Error::Parameter { name, value, range });
+                }
+            }
+        }
         Ok(())
     }
 
