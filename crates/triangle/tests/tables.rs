@@ -182,7 +182,7 @@ fn random_switches() {
     let mut good = 0;
     for _ in 0..600 {
         let mut switches = String::from("z");
-        for _ in 0..1 + (12.0 * random.unit()) as usize {
+        for _ in 0..=(12.0 * random.unit()) as usize {
             let letters = "pppraqADcenvjO2oBNEPYSQ123.{} ";
             switches.extend(letters.chars().nth((letters.len() as f64 * random.unit()) as usize));
         }
@@ -194,7 +194,7 @@ fn random_switches() {
         given.areas = vec![0.7; given.triangles.len()];
         match given.run_with(&switches, None, std::ptr::null_mut()) {
             Err((status, _, words)) => {
-                assert!(status == 1 && words.starts_with("switch"), "{switches}: {words}")
+                assert!(status == 1 && words.starts_with("switch"), "{switches}: {words}");
             }
             Ok([got, diagram]) => {
                 good += 1;
