@@ -43,7 +43,7 @@ impl Fault {
     }
 
     pub(crate) fn bug() -> Self {
-        Self::new(Status::Bug, "a bug of Delone: the work ended in a panic")
+        Self::new(Status::Bug, "the work ended in a panic: memory is short, or it is a bug of Delone")
     }
 
     /// Tells the caller and the thread.

@@ -1,5 +1,7 @@
 //! Each switch on small inputs, where the answer is known.
 
+use delone_generators::Random;
+
 use super::client::{Given, area, frame};
 
 /// A square with its center.
@@ -171,4 +173,45 @@ fn segments_that_cross_or_have_no_length() {
     let got = given.run("zpQ").expect("good");
     assert_eq!((got.points.len(), got.corners.len(), got.segments.len()), (5, 4, 8));
     assert_eq!((got.points[4], got.attributes[4]), ([2.0, 2.0], 2.0));
+}
+
+/// Any switches give a triangulation that fits together, or an error.
+#[test]
+fn random_switches() {
+    let mut random = Random::new(5);
+    let mut good = 0;
+    for _ in 0..600 {
+        let mut switches = String::from("z");
+        for _ in 0..=(12.0 * random.unit()) as usize {
+            let letters = "pppraqADcenvjO2oBNEPYSQ123.{} ";
+            switches.extend(letters.chars().nth((letters.len() as f64 * random.unit()) as usize));
+        }
+        switches.push_str("S20");
+        let mut given = Given { regions: vec![[1.0, 1.0, 2.0, 0.5]], ..frame() };
+        given.attributes = given.points.iter().map(|p| p[0]).collect();
+        let first = given.run("zpQ").expect("good");
+        given.triangles = first.corners.iter().map(|c| [c[0], c[1], c[2]]).collect();
+        given.areas = vec![0.7; given.triangles.len()];
+        match given.run_with(&switches, None, std::ptr::null_mut()) {
+            Err((status, _, words)) => {
+                assert!(status == 1 && words.starts_with("switch"), "{switches}: {words}");
+            }
+            Ok([got, diagram]) => {
+                good += 1;
+                let [points, triangles, _, edges, ..] = got.counts;
+                let rows =
+                    |list: &[[i32; 2]], below: i32| list.iter().flatten().all(|v| (-1..below).contains(v));
+                assert!(got.corners.iter().flatten().all(|v| (0..points).contains(v)), "{switches}");
+                assert!(rows(&got.edges, points) && rows(&got.segments, points), "{switches}");
+                assert!(
+                    diagram.counts[0] == 0 || (diagram.counts[0], diagram.counts[3]) == (triangles, edges)
+                );
+                assert!(rows(&diagram.edges, triangles), "{switches}");
+                if !got.points.is_empty() {
+                    assert!(got.corners.iter().all(|corners| area(&got.points, corners) > 0.0), "{switches}");
+                }
+            }
+        }
+    }
+    assert!(good > 400, "{good}");
 }
