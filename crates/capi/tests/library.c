@@ -171,6 +171,8 @@ static void plane(void) {
     is_good(t, 1);
     IS(delone_tri2_remove(t, ids, 2, &e) == 0 && delone_tri2_check(t, &e) == 0);
     IS(counts_of(t).vertices == COUNT - 2);
+    IS(delone_tri2_voronoi(t, NULL, &cells, &e) == 0);
+    delone_cells_free(cells);
     IS(delone_tri2_remove(t, ids, 1, &e) == DELONE_INDEX && e.index == 0);
     delone_tri2_free(t);
 }

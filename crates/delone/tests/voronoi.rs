@@ -1,7 +1,7 @@
 //! Voronoi cells against their definition: what is nearest to a site; and clipped cells tile.
 
 use delone::{Cells2, Delaunay2, Error, Region2, RegionProblem, Relaxation2, VertexId, VoronoiEdge2};
-use delone_generators::Kind;
+use delone_generators::{Kind, Random};
 use delone_oracle::all_cases;
 
 /// A rectangle that holds most of the points, one that cuts through, and polygons, all scaled to the points.
@@ -343,6 +343,26 @@ fn cells_that_roundings_could_take_across_are_cut_out() {
             let far = [two(22), two(22)];
             assert!(!is_whole(size, far, axis, sign, two(-32)), "{size:?} {axis} {sign}");
             assert!(is_whole(size, far, axis, sign, two(-30)), "{size:?} {axis} {sign}");
+        }
+    }
+}
+
+/// Removal leaves triangles that are none among the others: the cells are those of the sites that stay.
+#[test]
+fn cells_after_removal_are_those_of_a_new_triangulation() {
+    let mut random = Random::new(13);
+    let region = Region2::rectangle([-1.0; 2], [2.0; 2]).expect("a rectangle");
+    for n in 3..40 {
+        let points: Vec<[f64; 2]> = (0..n).map(|_| [random.unit(), random.unit()]).collect();
+        let mut d = Delaunay2::from_points(&points).expect("finite");
+        let gone = n / 3;
+        (0..gone).for_each(|i| d.remove(VertexId::new(i)).expect("a vertex"));
+        let anew = Delaunay2::from_points(&points[gone..]).expect("finite");
+        let [cells, expected] = [&d, &anew].map(|d| d.voronoi().clip(&region));
+        for i in 0..n {
+            let found = cells.area(VertexId::new(i));
+            let area = i.checked_sub(gone).map_or(0.0, |i| expected.area(VertexId::new(i)));
+            assert_eq!(found, area, "{i} of {n}");
         }
     }
 }

@@ -141,7 +141,7 @@ fn ask_ahead<K: Cellular>(layer: &Layer<K>, centers: &[[f64; 2]], t: TriangleId)
         prefetch(&mesh.edges, record.twin.index());
     }
     let next = mesh.edges.get(4 * (t.index() + PREFETCH_DISTANCE)..).into_iter().flatten().take(3);
-    for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
+    for record in next.filter(|record| record.twin != EdgeId::NONE) {
         prefetch(centers, record.twin.triangle().index());
         for beyond in [record.twin.next(), record.twin.previous()] {
             if let Some(record) = mesh.edges.get(beyond.index()) {
