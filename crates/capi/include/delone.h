@@ -25,8 +25,8 @@ extern "C" {
 /* Statuses. */
 #define DELONE_GOOD 0
 #define DELONE_ARGUMENT 1   /* a pointer, a stride, a number out of range */
-#define DELONE_NOT_FINITE 2 /* a coordinate that is NaN or infinite: `index` is the point */
-#define DELONE_CROSSING 3   /* segments cross: `index` is the first of them */
+#define DELONE_NOT_FINITE 2 /* a coordinate that is NaN or infinite: `index` is its row */
+#define DELONE_CROSSING 3   /* segments cross: `index` is one of them */
 #define DELONE_INDEX 4      /* an index out of range: `index` is its row */
 #define DELONE_TOO_MANY 5   /* more points than 2^29, in space 2^27 */
 #define DELONE_MEMORY 6     /* there is no memory */
@@ -68,7 +68,7 @@ typedef struct delone_cells delone_cells;
 typedef struct delone_counts {
     uint32_t size;       /* sizeof(delone_counts) */
     int32_t dimension;   /* of the hull: -1 without points, else 0 to 3 */
-    size_t points;       /* indices of points in use, those of duplicates included */
+    size_t points;       /* indices of points, those of duplicates and of removed points included */
     size_t vertices;     /* points that are vertices */
     size_t simplices;    /* triangles, or tetrahedra */
     size_t edges;        /* 0 in space */
@@ -177,7 +177,8 @@ int32_t delone_tri2_stars(const delone_tri2 *t, size_t *starts, uint32_t *neighb
 int32_t delone_tri2_regions(const delone_tri2 *t, int32_t *regions);
 /* How many triangles of a mesh are not as wanted, because no angle there can be larger, or no vertex is allowed. */
 int32_t delone_tri2_left(const delone_tri2 *t, size_t *count);
-/* For each point the vertex at its place: itself, but for duplicates. */
+/* For each point the vertex at its place: itself, but for duplicates; DELONE_NO_VERTEX for removed points, and for those that weights hide. */
+#define DELONE_NO_VERTEX 0xffffffffu
 int32_t delone_tri2_vertices(const delone_tri2 *t, uint32_t *vertices);
 
 /* The row of a triangle that each place is in, -1 outside. A place on an edge is in one of both triangles. */
@@ -190,8 +191,11 @@ int32_t delone_tri2_nearest(const delone_tri2 *t, const delone_points *places, u
 #define DELONE_LAPLACE 2
 #define DELONE_SIBSON 3 /* natural neighbors */
 
-/* The value at each place, of one value a point; NaN outside of the hull, or of the mesh. With segments linear and nearest only, and not with
- * weights. */
+/*
+ * The value at each place, of one value a point; NaN outside of the hull, or of the mesh. Beyond the hull by 2^-48 of the largest coordinate is on it,
+ * because places that are computed are rounded; beyond the border of a mesh is outside. With segments linear and nearest only, and not with
+ * weights.
+ */
 int32_t delone_tri2_interpolate(const delone_tri2 *t, const double *values, size_t value_count, const delone_points *places, int32_t how,
                                 double *out, delone_error *error);
 
@@ -200,13 +204,18 @@ int32_t delone_tri2_check(const delone_tri2 *t, delone_error *error);
 
 /* Inserts points, and tells their indices: `ids` may be NULL. Meshes and triangulations with weights stay as they are: DELONE_ARGUMENT. */
 int32_t delone_tri2_insert(delone_tri2 *t, const delone_points *points, uint32_t *ids, delone_error *error);
-/* Removes vertices, all or, if one is none, none: `index` is its row. As above. */
+/*
+ * Removes vertices: all, or none if there is one that is no vertex, is there twice, or has a segment. `index` is its row. As above. Later points at the
+ * place of a removed vertex are gone with it.
+ */
 int32_t delone_tri2_remove(delone_tri2 *t, const uint32_t *vertices, size_t count, delone_error *error);
 
 /* --- Voronoi cells ---------------------------------------------------------------------------------------------------------------- */
 
-/* The cells of all points in a box: x and y of the lower left corner, then of the upper right one. NULL: the box around all points, and a
- * tenth of its larger side more on each side. */
+/*
+ * The cells of all points in a box: x and y of the lower left corner, then of the upper right one. NULL: the box around all vertices, and a
+ * tenth of its larger side more on each side.
+ */
 int32_t delone_tri2_voronoi(const delone_tri2 *t, const double *box, delone_cells **out, delone_error *error);
 void delone_cells_free(delone_cells *cells);
 /* Cells (one a point), corners in all, vertices. Each may be NULL. */

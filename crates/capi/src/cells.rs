@@ -1,6 +1,6 @@
 //! Voronoi cells in a box.
 
-use delone::{Bounds, Cells2, Region2, VertexId};
+use delone::{Bounds, Cells2, Delaunay2, Region2, VertexId};
 
 use crate::failure::{CError, Failure, Status, guard};
 use crate::plane::{Kind, Tri2};
@@ -10,34 +10,53 @@ use crate::run::run;
 /// Without a box, cells reach beyond the box around all points by this part of its larger side: enough to see those of the hull.
 const MARGIN_PART: f64 = 0.1;
 
-/// `delone_cells`.
+/// `delone_cells`: cells by point, with the vertices that they use.
 pub(crate) struct Cells {
-    cells: Cells2,
-    /// How many there are: one a point.
-    count: usize,
+    vertices: Vec<[f64; 2]>,
+    /// Where the corners of each cell start, and the end of the last.
+    starts: Vec<usize>,
+    corners: Vec<u32>,
+    areas: Vec<f64>,
 }
 
 impl Cells {
-    fn sites(&self) -> impl Iterator<Item = VertexId> {
-        (0..self.count).map(VertexId::new)
-    }
-
-    /// The corners of a cell in a box, which is convex: one ring.
-    fn corners(&self, site: VertexId) -> impl Iterator<Item = u32> {
-        self.cells.rings(site).flat_map(|ring| ring.indices().iter().copied())
+    /// Cells in a box are convex: each has one ring, or none.
+    fn new(cells: &Cells2, count: usize) -> Self {
+        let mut made = Self { vertices: vec![], starts: vec![0], corners: vec![], areas: vec![] };
+        let mut numbers: Vec<Option<u32>> = vec![None; cells.vertices().len()];
+        for site in (0..count).map(VertexId::new) {
+            for &corner in cells.rings(site).flat_map(|ring| ring.indices()) {
+                let number = *numbers[corner as usize].get_or_insert_with(|| {
+                    made.vertices.push(cells.vertices()[corner as usize]);
+                    made.vertices.len() as u32 - 1
+                });
+                made.corners.push(number);
+            }
+            made.starts.push(made.corners.len());
+            made.areas.push(cells.area(site));
+        }
+        made
     }
 }
 
-/// The box of a caller, or one around all points.
-fn region(given: &[f64], points: &[[f64; 2]]) -> Result<Region2, Failure> {
+/// The box of a caller, or one around all vertices.
+fn region(given: &[f64], d: &Delaunay2) -> Result<Region2, Failure> {
+    if let Some(at) = given.iter().position(|x| !x.is_finite()) {
+        return Err(Failure::new(Status::NotFinite, format!("box: number {at} must be finite")).at(at));
+    }
     if let &[x0, y0, x1, y1] = given {
         return Ok(Region2::rectangle([x0, y0], [x1, y1])?);
     }
-    let bounds = Bounds::of(points.iter().copied());
-    let margin = MARGIN_PART * bounds.extent().into_iter().fold(0.0, f64::max);
-    let (low, high) = (bounds.low.map(|x| x - margin), bounds.high.map(|x| x + margin));
-    Region2::rectangle(low, high)
-        .map_err(|_| Failure::new(Status::Dimension, "the points span no box: give one"))
+    let bounds = Bounds::of(d.vertices().map(|v| d.point(v)));
+    let extent = [0, 1].map(|k| MARGIN_PART * bounds.high[k] - MARGIN_PART * bounds.low[k]);
+    let margin = extent.into_iter().fold(0.0, f64::max);
+    let finite = |x: f64| x.clamp(f64::MIN, f64::MAX);
+    let (low, high) = (bounds.low.map(|x| finite(x - margin)), bounds.high.map(|x| finite(x + margin)));
+    let no_box = || Failure::new(Status::Dimension, "there is no box around the vertices: give one");
+    if d.vertex_count() == 0 {
+        return Err(no_box());
+    }
+    Region2::rectangle(low, high).map_err(|_| no_box())
 }
 
 #[unsafe(no_mangle)]
@@ -56,13 +75,8 @@ pub(crate) unsafe extern "C" fn delone_tri2_voronoi(
             let Kind::Plain(d) = &t.kind else {
                 return Err(Failure::argument("cells are for triangulations without segments and weights"));
             };
-            let region = region(given, d.points())?;
-            give(
-                out,
-                run(d.points().len(), || {
-                    Ok(Cells { cells: d.voronoi().clip(&region), count: d.points().len() })
-                }),
-            )
+            let region = region(given, d)?;
+            give(out, run(d.points().len(), || Ok(Cells::new(&d.voronoi().clip(&region), d.points().len()))))
         }
     })
 }
@@ -86,10 +100,9 @@ pub(crate) unsafe extern "C" fn delone_cells_counts(
         // SAFETY: `delone.h` promises a handle, and a number behind each pointer that is not NULL.
         unsafe {
             let cells = handle(cells)?;
-            let corners = cells.sites().map(|site| cells.corners(site).count()).sum();
-            write(cell_count, std::iter::once(cells.count));
-            write(corner_count, std::iter::once(corners));
-            write(vertex_count, std::iter::once(cells.cells.vertices().len()));
+            write(cell_count, std::iter::once(cells.areas.len()));
+            write(corner_count, std::iter::once(cells.corners.len()));
+            write(vertex_count, std::iter::once(cells.vertices.len()));
         }
         Ok(())
     })
@@ -99,7 +112,7 @@ pub(crate) unsafe extern "C" fn delone_cells_counts(
 pub(crate) unsafe extern "C" fn delone_cells_vertices(cells: *const Cells, xy: *mut f64) -> i32 {
     guard(std::ptr::null_mut(), || {
         // SAFETY: `delone.h` promises a handle, and room for two numbers a vertex.
-        unsafe { write(xy, handle(cells)?.cells.vertices().iter().flatten().copied()) };
+        unsafe { write(xy, handle(cells)?.vertices.iter().flatten().copied()) };
         Ok(())
     })
 }
@@ -114,13 +127,8 @@ pub(crate) unsafe extern "C" fn delone_cells_rings(
         // SAFETY: `delone.h` promises a handle, and room for a number a cell and one more, and for all corners.
         unsafe {
             let cells = handle(cells)?;
-            let mut next = 0;
-            let ends = cells.sites().map(|site| {
-                next += cells.corners(site).count();
-                next
-            });
-            write(starts, std::iter::once(0).chain(ends));
-            write(corners, cells.sites().flat_map(|site| cells.corners(site)));
+            write(starts, cells.starts.iter().copied());
+            write(corners, cells.corners.iter().copied());
         }
         Ok(())
     })
@@ -131,8 +139,7 @@ pub(crate) unsafe extern "C" fn delone_cells_areas(cells: *const Cells, areas: *
     guard(std::ptr::null_mut(), || {
         // SAFETY: `delone.h` promises a handle, and room for a number a cell.
         unsafe {
-            let cells = handle(cells)?;
-            write(areas, cells.sites().map(|site| cells.cells.area(site)));
+            write(areas, handle(cells)?.areas.iter().copied());
         }
         Ok(())
     })

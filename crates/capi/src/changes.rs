@@ -24,6 +24,16 @@ unsafe fn changing<'a>(t: *mut Tri2) -> Result<&'a mut Tri2, Failure> {
     }
 }
 
+impl Tri2 {
+    /// Whether segments meet at a vertex.
+    fn has_segment(&self, v: VertexId) -> bool {
+        match &self.kind {
+            Kind::Constrained(c) | Kind::Mesh(c, _) => c.mesh().star(v).any(|e| c.is_constraint(e)),
+            Kind::Plain(_) | Kind::Regular(..) => false,
+        }
+    }
+}
+
 #[unsafe(no_mangle)]
 pub(crate) unsafe extern "C" fn delone_tri2_insert(
     t: *mut Tri2,
@@ -34,7 +44,9 @@ pub(crate) unsafe extern "C" fn delone_tri2_insert(
     guard(error, || {
         // SAFETY: `delone.h` promises a handle that no other thread uses, points, and room for a number each.
         unsafe {
-            let (points, t) = (read::<2>(points, MAX_POINTS)?, changing(t)?);
+            // A copy: they may be those of the handle itself.
+            let points = read::<2>(points, MAX_POINTS)?.into_owned();
+            let t = changing(t)?;
             crate::queries::finite(&points)?;
             for (row, &point) in points.iter().enumerate() {
                 let inserted = match &mut t.kind {
@@ -66,6 +78,11 @@ pub(crate) unsafe extern "C" fn delone_tri2_remove(
             // All or none: a vertex that is none, or there twice, is refused before any goes.
             let mut seen = std::collections::BTreeSet::new();
             for (row, &v) in vertices.iter().enumerate() {
+                if t.has_segment(VertexId::new(v as usize)) {
+                    return Err(
+                        Failure::argument(format!("a segment ends at vertex {v}, or bends there")).at(row)
+                    );
+                }
                 if !t.mesh().contains(VertexId::new(v as usize)) || !seen.insert(v) {
                     return Err(
                         Failure::new(Status::Index, format!("{v} is no vertex, or is there twice")).at(row)

@@ -103,12 +103,12 @@ pub(crate) fn guard(error: *mut CError, work: impl FnOnce() -> Result<(), Failur
 fn tell(error: *mut CError, failure: &Failure) {
     // SAFETY: `delone.h` asks for NULL or a struct that may be written to.
     let Some(error) = (unsafe { error.as_mut() }) else { return };
+    // A struct of an older program is shorter, and one without a size is none.
+    let before = std::mem::offset_of!(CError, message);
+    let Some(room) = (error.size as usize).checked_sub(before) else { return };
     error.status = failure.status as i32;
     error.index = failure.index.map_or(-1, |index| index as i64);
-    // A struct of an older program is shorter.
-    let before = std::mem::offset_of!(CError, message);
-    let room = (error.size as usize).saturating_sub(before).min(MESSAGE_BYTES);
-    let Some(last) = room.checked_sub(1) else { return };
+    let Some(last) = room.min(MESSAGE_BYTES).checked_sub(1) else { return };
     let end = (0..=last.min(failure.words.len())).rev().find(|&end| failure.words.is_char_boundary(end));
     let words = &failure.words[..end.unwrap_or_default()];
     for (to, byte) in error.message.iter_mut().zip(words.bytes()) {

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 
 use delone::{Constrained2, Error, Fill, Keep, Refined2, Refinement, RegionSeed2, Seeds2};
 
-use crate::failure::{CError, Failure, guard};
+use crate::failure::{CError, Failure, Status, guard};
 use crate::plane::{Kind, Tri2, crossings, graph};
 use crate::points::{CPoints, clear, give, list};
 use crate::run::run;
@@ -99,6 +99,16 @@ impl COptions {
             let holes = list(self.holes.cast::<[f64; 2]>(), self.hole_count, "holes")?;
             (holes, list(self.regions, self.region_count, "regions")?)
         };
+        let is_finite = |p: &[f64; 2]| p.iter().all(|x| x.is_finite());
+        let wrong = |what: &str, row: usize| {
+            Failure::new(Status::NotFinite, format!("{what} {row}: its point must be finite")).at(row)
+        };
+        if let Some(row) = holes.iter().position(|hole| !is_finite(hole)) {
+            return Err(wrong("hole", row));
+        }
+        if let Some(row) = regions.iter().position(|region| !is_finite(&region.at)) {
+            return Err(wrong("region", row));
+        }
         let seed = |region: &CRegion| {
             let max_area = (region.max_area != 0.0).then_some(region.max_area);
             RegionSeed2::new(region.at).attribute(region.attribute).max_area(max_area)

@@ -111,7 +111,7 @@ pub(crate) unsafe fn list<'a, T>(first: *const T, count: usize, what: &str) -> R
     }
     if first.is_null() || !first.is_aligned() || count > isize::MAX as usize / size_of::<T>() {
         return Err(Failure::argument(format!(
-            "{what}: the pointer is NULL or no pointer, with a count of {count}"
+            "{what}: the pointer is NULL or not aligned, with a count of {count}"
         )));
     }
     // SAFETY: it is aligned and not NULL, and the caller promises the items.

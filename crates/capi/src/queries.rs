@@ -23,6 +23,10 @@ pub(crate) fn each_task<Q: Sync, A: Send>(
     places: &[Q],
     task: impl Fn(&[Q]) -> Result<Vec<A>, Failure> + Sync + Send,
 ) -> Result<Vec<A>, Failure> {
+    // Of no places, too, it is seen whether the rest of the question is right.
+    if places.is_empty() {
+        return task(places);
+    }
     let tasks: Vec<&[Q]> = places.chunks(TASK_PLACES).collect();
     let answers = run(places.len(), || delone_pool::shared(&tasks, 1, |places| task(places)))?;
     Ok(answers.into_iter().flatten().collect())
@@ -125,6 +129,14 @@ pub(crate) unsafe extern "C" fn delone_tri2_nearest(
     })
 }
 
+/// The values of a caller, one a point.
+pub(crate) fn table(values: &[f64], points: usize) -> Result<&[f64], Failure> {
+    if values.len() == points {
+        return Ok(values);
+    }
+    Err(Failure::argument(format!("values: there are {}, and {points} points", values.len())))
+}
+
 /// Values at places, NaN where there is none.
 pub(crate) fn values<T: Ask>(
     mut values: Interpolator<'_, T>,
@@ -172,7 +184,7 @@ pub(crate) unsafe extern "C" fn delone_tri2_interpolate(
         // SAFETY: `delone.h` promises a handle, values, places, and room for a number each.
         unsafe {
             let (t, places) = (handle(t)?, read::<2>(places, MAX_POINTS)?);
-            let table = list(values_of_points, value_count, "values")?;
+            let table = table(list(values_of_points, value_count, "values")?, t.points().len())?;
             finite(&places)?;
             let all = each_task(&places, |places| match &t.kind {
                 Kind::Plain(d) => values(of_delaunay(d, how)?, table, places),

@@ -6,6 +6,9 @@ use crate::failure::{CError, Failure, Status, guard};
 use crate::plane::{Kind, Tri2};
 use crate::points::{handle, write};
 
+/// `DELONE_NO_VERTEX`.
+const NO_VERTEX: u32 = u32::MAX;
+
 /// `delone_counts`.
 #[repr(C)]
 pub(crate) struct CCounts {
@@ -275,7 +278,8 @@ pub(crate) unsafe extern "C" fn delone_tri2_vertices(t: *const Tri2, vertices: *
         // SAFETY: `delone.h` promises a handle, and room for a number a point.
         unsafe {
             let t = handle(t)?;
-            let mut of: Vec<u32> = (0..t.points().len() as u32).collect();
+            let own = |v: u32| if t.mesh().contains(VertexId::new(v as usize)) { v } else { NO_VERTEX };
+            let mut of: Vec<u32> = (0..t.points().len() as u32).map(own).collect();
             t.duplicates().into_iter().for_each(|(point, vertex)| of[point] = vertex.index() as u32);
             write(vertices, of.into_iter());
         }

@@ -6,7 +6,7 @@ use delone::{Delaunay3, Error, Location3, MAX_POINTS_IN_SPACE, TetrahedronId, Tr
 use crate::failure::{CError, Failure, Status, guard};
 use crate::memory;
 use crate::points::{CPoints, clear, give, handle, list, read, write};
-use crate::queries::{LAPLACE, LINEAR, NEAREST, SIBSON, each_task, finite, nearest_rows, values};
+use crate::queries::{LAPLACE, LINEAR, NEAREST, SIBSON, each_task, finite, nearest_rows, table, values};
 use crate::rows::{CCounts, fill, number};
 use crate::run::run;
 
@@ -199,7 +199,7 @@ pub(crate) unsafe extern "C" fn delone_tri3_interpolate(
         // SAFETY: `delone.h` promises a handle, values, places, and room for a number each.
         unsafe {
             let (t, places) = (handle(t)?, read::<3>(places, MAX_POINTS_IN_SPACE)?);
-            let table = list(values_of_points, value_count, "values")?;
+            let table = table(list(values_of_points, value_count, "values")?, t.points)?;
             finite(&places)?;
             let all = each_task(&places, |places| {
                 let method = match how {

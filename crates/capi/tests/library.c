@@ -317,6 +317,47 @@ static void on_a_line(void) {
     delone_tri2_free(t);
 }
 
+/* Cases of an attack: all or none, boxes after removal, points of the handle itself, numbers that are none. */
+static void attacked(void) {
+    static const double xy[] = {0, 0, 1, 0, 1, 1, 0, 1, 1000, 1000, 0.4, 0.5}, far[] = {0, 0, 1.7e308, 0, 0, 1.7e308};
+    static const uint32_t segments[] = {0, 1, 1, 2}, some[] = {4, 5, 0};
+    static const double seed[] = {0.5, HUGE_VAL};
+    delone_points p = delone_xy(xy, 6), none = delone_xy(NULL, 0);
+    delone_mesh_options o;
+    delone_tri2 *t;
+    delone_cells *cells;
+    delone_error e = fresh();
+    size_t n, m, i;
+    uint32_t vertices[6];
+    double areas[6], corners[2 * 60], sum = 0, box[4] = {0, 0, 1, 0};
+    IS(delone_constrained2_new(&p, segments, 2, 0, &t, &e) == 0);
+    IS(delone_tri2_remove(t, some, 3, &e) == DELONE_ARGUMENT && e.index == 2 && counts_of(t).vertices == 6);
+    IS(delone_tri2_interpolate(t, xy, 3, &none, DELONE_LINEAR, NULL, &e) == DELONE_ARGUMENT);
+    IS(delone_tri2_interpolate(t, xy, 6, &none, DELONE_SIBSON, NULL, &e) == DELONE_ARGUMENT);
+    delone_tri2_free(t);
+    IS(delone_tri2_new(&p, &t, &e) == 0 && delone_tri2_remove(t, some, 1, &e) == 0);
+    IS(delone_tri2_vertices(t, vertices) == 0 && vertices[4] == DELONE_NO_VERTEX && vertices[5] == 5);
+    IS(delone_tri2_voronoi(t, NULL, &cells, &e) == 0 && delone_cells_areas(cells, areas) == 0);
+    for (i = 0; i < 6; i++) sum += areas[i];
+    IS(fabs(sum - 1.44) < 1e-12 && delone_cells_counts(cells, NULL, &m, &n) == 0 && n <= m && n <= 60);
+    IS(delone_cells_vertices(cells, corners) == 0);
+    for (i = 0; i < 2 * n; i++) IS(fabs(corners[i]) < 2);
+    delone_cells_free(cells);
+    box[3] = HUGE_VAL;
+    IS(delone_tri2_voronoi(t, box, &cells, &e) == DELONE_NOT_FINITE && e.index == 3);
+    p = delone_xy(delone_tri2_points(t, &n), 6);
+    IS(delone_tri2_insert(t, &p, vertices, &e) == 0 && vertices[5] == 5 && counts_of(t).vertices == 6);
+    delone_tri2_free(t);
+    p = delone_xy(far, 3);
+    IS(delone_tri2_new(&p, &t, &e) == 0 && delone_tri2_voronoi(t, NULL, &cells, &e) == 0);
+    delone_cells_free(cells), delone_tri2_free(t);
+    IS(delone_tri2_new(&none, &t, &e) == 0 && delone_tri2_voronoi(t, NULL, &cells, &e) == DELONE_DIMENSION);
+    delone_tri2_free(t);
+    memset(&o, 0, sizeof o);
+    o.size = (uint32_t)sizeof o, o.fill = DELONE_FILL_SEEDS, o.holes = seed, o.hole_count = 1;
+    IS(delone_mesh2_new(&p, NULL, 0, &o, &t, &e) == DELONE_NOT_FINITE && e.index == 0);
+}
+
 static void wrong(void) {
     double xy[] = {0, 0, 1, 0, 0, 1, 5, 5}, weights[] = {0, 0, 0, -10};
     uint32_t segments[] = {0, 1, 1, 9};
@@ -345,6 +386,8 @@ static void wrong(void) {
     IS(delone_tri2_new(&p, &t, &e) == DELONE_NOT_FINITE && e.index == 2);
     xy[5] = 1;
     /* A struct of an older program is shorter. */
+    e.size = 8, e.index = 77;
+    IS(delone_tri2_new(NULL, &t, &e) == DELONE_ARGUMENT && e.index == 77);
     e.size = 20, e.message[3] = 'x', e.message[4] = 'y';
     IS(delone_tri2_new(NULL, &t, &e) == DELONE_ARGUMENT && e.message[3] == 0 && e.message[4] == 'y');
     e.size = (uint32_t)sizeof e;
@@ -366,6 +409,7 @@ static void wrong(void) {
 
 int main(void) {
     wrong();
+    attacked();
     plane();
     meshes();
     space();

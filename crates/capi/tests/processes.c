@@ -1,4 +1,5 @@
 /* Forks before and after parallel work, threads that ask one handle, many handles at once. */
+#include <dirent.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,6 +29,19 @@ static int in_child(void) {
         _exit(build(1000) || build(COUNT) || build(COUNT));
     }
     return waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+}
+
+/* Threads for two and for three are made once, beside those of the pools before (64 and more would be one for each call). */
+static int keeps_threads(void) {
+    int i, count = 0;
+    DIR *tasks;
+    for (i = 0; i < 60; i++) {
+        if (delone_set_threads(2 + i % 2, NULL) || build(COUNT / 4)) return 1;
+    }
+    tasks = opendir("/proc/self/task");
+    while (tasks != NULL && readdir(tasks) != NULL) count++;
+    if (tasks != NULL) closedir(tasks);
+    return count > 64;
 }
 
 static const delone_tri2 *shared;
@@ -62,6 +76,7 @@ int main(void) {
     if (in_child()) return puts("a fork before the first call"), 1;
     if (build(COUNT) || in_child() || in_child()) return puts("a fork after parallel work"), 1;
     if (delone_set_threads(3, NULL) || build(COUNT) || in_child()) return puts("a fork with another pool"), 1;
+    if (keeps_threads()) return puts("threads of other numbers"), 1;
     if (delone_tri2_new(&p, &t, NULL) || delone_tri2_locate(t, &places, expected, NULL)) return 1;
     shared = t;
     for (i = 0; i < THREADS; i++) wrong |= pthread_create(threads + i, NULL, ask, NULL);

@@ -20,15 +20,16 @@ pub use fork::survive_forks;
 /// Items, up to which the calling thread does the work: the library would cut it into one part anyway.
 pub const SERIAL_ITEMS: usize = 20_000;
 
-/// The pool of a generation, and the slot of the next one.
+/// The pools of a generation, and the slot of the next one.
 struct Slot {
-    pool: OnceLock<ThreadPool>,
+    /// By the number of threads that were asked for.
+    pools: OnceLock<Box<[OnceLock<ThreadPool>]>>,
     next: OnceLock<Box<Slot>>,
 }
 
 impl Slot {
     const fn new() -> Self {
-        Self { pool: OnceLock::new(), next: OnceLock::new() }
+        Self { pools: OnceLock::new(), next: OnceLock::new() }
     }
 }
 
@@ -48,36 +49,44 @@ fn slot() -> &'static Slot {
 
 /// The pool of this process, made at the first need; none where the system gives no thread.
 pub fn pool() -> Option<&'static ThreadPool> {
-    let slot = slot();
-    if let Some(pool) = slot.pool.get() {
+    let asked = threads();
+    let pool =
+        slot().pools.get_or_init(|| (0..=most_threads()).map(|_| OnceLock::new()).collect()).get(asked)?;
+    if let Some(pool) = pool.get() {
         return Some(pool);
     }
-    let made = made_of(threads(), |count| {
+    let made = made_of(asked, |count| {
         let named = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("delone-{k}"));
         // Work that panics has no result, which its waiter reports; the process goes on.
         named.panic_handler(drop).build().ok()
     })?;
     // Of two that are made at once one goes again.
-    Some(slot.pool.get_or_init(|| made))
+    Some(pool.get_or_init(|| made))
 }
 
 /// How many threads a program asked for; 0 is none.
 static ASKED: AtomicUsize = AtomicUsize::new(0);
 
-/// Sets how many threads there are from now on; 0 is as many as without a call. Work that runs goes on with those it has, and a pool that is
-/// no more used keeps its threads, which sleep.
+/// Sets how many threads there are from now on; 0 is as many as without a call. Work that runs goes on with those it has. Threads that were
+/// made for another number sleep until it is asked for again.
 pub fn set_threads(count: usize) {
-    if ASKED.swap(count, Ordering::AcqRel) != count && slot().pool.get().is_some() {
-        GENERATION.fetch_add(1, Ordering::AcqRel);
-    }
+    ASKED.store(count, Ordering::Release);
 }
 
-/// As many threads as were asked for, as `RAYON_NUM_THREADS` says, or there are cores. Many more than these would only wait for each other.
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// Many more than there are cores would only wait for each other.
+fn most_threads() -> usize {
+    (4 * cores()).max(16)
+}
+
+/// As many threads as were asked for, as `RAYON_NUM_THREADS` says, or there are cores.
 fn threads() -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
     let of_program = Some(ASKED.load(Ordering::Acquire)).filter(|&asked| asked > 0);
     let of_user = || std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
-    of_program.or_else(of_user).filter(|&asked| asked > 0).unwrap_or(cores).min((4 * cores).max(16))
+    of_program.or_else(of_user).filter(|&asked| asked > 0).unwrap_or_else(cores).min(most_threads())
 }
 
 /// A pool of so many threads, or of half as many, and so on: of what the system gives.
