@@ -167,9 +167,7 @@ impl Attack for Cells {
         let made =
             LineCells2::new(&points, &ends, &lines, &region, tolerance).map_err(|error| error.to_string())?;
         let count = lines.iter().max().map_or(0, |last| last + 1);
-        // A segment of no length is no line.
-        let real: Vec<usize> = (0..items.len()).filter(|&i| items[i][0] != items[i][1]).collect();
-        if real.is_empty() {
+        if items.is_empty() {
             return Ok(());
         }
         let areas: f64 = (0..count).map(|line| made.cells.area(VertexId::new(line))).sum();
@@ -179,8 +177,8 @@ impl Attack for Cells {
         for _ in 0..PLACES {
             let q = [(); 2].map(|()| low + (high - low) * random.unit());
             let from = |line: usize| {
-                let own = real.iter().filter(|&&i| lines[i] == line);
-                own.map(|&i| distance(q, items[i])).fold(f64::INFINITY, f64::min)
+                let own = items.iter().zip(&lines).filter(|(_, of)| **of == line);
+                own.map(|(&segment, _)| distance(q, segment)).fold(f64::INFINITY, f64::min)
             };
             let distances: Vec<f64> = (0..count).map(from).collect();
             let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
