@@ -53,6 +53,12 @@ def parcels(seed, count):
     return [shapely.intersection(cell, unit) for k, cell in enumerate(cells) if k % 3]
 
 
+def tenths(size, count):
+    """Parcels of a lattice whose steps are no binary numbers: sides nearly touch, and slits are a rounding wide."""
+    steps = [(i, j) for i in range(count) for j in range(count) if (i + j) % 7]
+    return [shapely.box(i * size, j * size, i * size + size, j * size + size) for i, j in steps]
+
+
 def row(gap, turn):
     """Houses beside each other, a part of whose walls nearly touch."""
     sizes = [0.2, 0.13, 0.25, 0.1]
@@ -76,6 +82,7 @@ SETS = {
     "from beyond": (beyond(11, 2), "lines", 1e-2),
     "from beyond, fine": (beyond(12, 5), "lines", 1e-3),
     "parcels": (parcels(8, 15), "areas", 1e-3),
+    "parcels of a lattice": (tenths(0.05, 20), "areas", 1e-2),
     "a row": (row(1e-9, 0), "areas", 1e-3),
     "a row, turned": (row(1e-12, 17), "areas", 2e-2),
     "borders of areas": (apart(7, 8), "lines", 1e-3),

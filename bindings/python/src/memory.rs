@@ -1,8 +1,7 @@
 //! Memory is asked for before long work starts: the library, which takes it piece by piece, ends the process where there is
 //! none, and Python has an exception for that.
 
-use std::hint::black_box;
-
+use delone_pool::has_room;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
@@ -27,8 +26,7 @@ impl Need {
     /// Checks with `more` bytes in addition.
     pub fn check_with(&self, dimension: usize, points: usize, more: usize) -> PyResult<()> {
         let bytes = points.saturating_mul(self.0[dimension - 2]).saturating_add(more);
-        let mut room = Vec::<u8>::new();
-        if black_box(&mut room).try_reserve_exact(bytes).is_err() {
+        if !has_room(bytes) {
             let megabytes = bytes >> 20;
             return Err(PyMemoryError::new_err(format!("{points} points need about {megabytes} megabytes")));
         }
@@ -48,8 +46,7 @@ pub fn room_for_neighbors<T>(queries: usize, k: usize) -> PyResult<Vec<T>> {
 
 /// Refuses results of so many bytes if there is no memory for them.
 pub fn room(bytes: usize, what: &str) -> PyResult<()> {
-    let mut room = Vec::<u8>::new();
-    if black_box(&mut room).try_reserve_exact(bytes).is_err() {
+    if !has_room(bytes) {
         return Err(PyMemoryError::new_err(format!("{what} need about {} megabytes", bytes >> 20)));
     }
     Ok(())

@@ -1,7 +1,5 @@
 //! Memory is asked for before long work starts: the engine, which takes it piece by piece, ends the process where there is none.
 
-use std::hint::black_box;
-
 use crate::failure::{Failure, Status};
 
 /// Memory of work for a point, in bytes: measured on a million points, and half as much again.
@@ -12,8 +10,7 @@ pub(crate) const SPACE_BYTES: usize = 430;
 /// Refuses work on so many points if there is no memory for it.
 pub(crate) fn check(points: usize, bytes: usize) -> Result<(), Failure> {
     let bytes = points.saturating_mul(bytes);
-    let mut room = Vec::<u8>::new();
-    if black_box(&mut room).try_reserve_exact(bytes).is_err() {
+    if !delone_pool::has_room(bytes) {
         let words = format!("{points} points need about {} megabytes", bytes >> 20);
         return Err(Failure::new(Status::Memory, words));
     }

@@ -5,6 +5,7 @@ use delone::surface::Interpolator;
 use delone::{Ask, Constrained2, Delaunay2, Error, Location2, TriangleId, VertexId};
 
 use crate::failure::{CError, Failure, Status, guard};
+use crate::memory;
 use crate::plane::{Kind, Tri2};
 use crate::points::{CPoints, handle, list, read, write};
 use crate::run::run;
@@ -43,8 +44,67 @@ pub(crate) fn finite<const D: usize>(places: &[[f64; D]]) -> Result<(), Failure>
     }
 }
 
+/// A triangulation that is asked about places.
+pub(crate) trait Places<const D: usize>: Sync {
+    /// How many points there may be at most, and how many there are.
+    const MOST_POINTS: usize;
+    fn count(&self) -> usize;
+    /// The row of a simplex that a place is in, or -1.
+    fn row_at(&self, place: [f64; D]) -> Result<i64, Error>;
+    fn k_nearest(&self, place: [f64; D], k: usize) -> Result<Vec<VertexId>, Error>;
+}
+
+/// Locates places.
+///
+/// # Safety
+/// The handle and the places are right or NULL, and there is room for a number each.
+pub(crate) unsafe fn locate<T: Places<D>, const D: usize>(
+    t: *const T,
+    places: *const CPoints,
+    rows: *mut i64,
+) -> Result<(), Failure> {
+    // SAFETY: promised by the caller.
+    unsafe {
+        let (t, places) = (handle(t)?, read::<D>(places, T::MOST_POINTS)?);
+        finite(&places)?;
+        let all = each_task(&places, |places| {
+            Ok(places.iter().map(|&p| t.row_at(p)).collect::<Result<_, _>>()?)
+        })?;
+        write(rows, all.into_iter());
+    }
+    Ok(())
+}
+
+/// Finds the nearest vertices of places.
+///
+/// # Safety
+/// As [`locate`], with room for k numbers each.
+pub(crate) unsafe fn nearest<T: Places<D>, const D: usize>(
+    t: *const T,
+    places: *const CPoints,
+    k: u32,
+    vertices: *mut i64,
+) -> Result<(), Failure> {
+    // SAFETY: promised by the caller.
+    unsafe {
+        let (t, places) = (handle(t)?, read::<D>(places, T::MOST_POINTS)?);
+        finite(&places)?;
+        let k = k as usize;
+        memory::check(places.len(), k.saturating_mul(size_of::<i64>()))?;
+        let all = each_task(&places, |places| {
+            let mut found = Vec::new();
+            for &place in places {
+                found.extend(nearest_rows(t.k_nearest(place, k.min(t.count()))?, k));
+            }
+            Ok(found)
+        })?;
+        write(vertices, all.into_iter());
+    }
+    Ok(())
+}
+
 /// Rows of the nearest vertices, filled up with -1.
-pub(crate) fn nearest_rows(found: Vec<VertexId>, k: usize) -> impl Iterator<Item = i64> {
+fn nearest_rows(found: Vec<VertexId>, k: usize) -> impl Iterator<Item = i64> {
     let found = found.into_iter().map(|v| v.index() as i64);
     found.chain(std::iter::repeat(-1)).take(k)
 }
@@ -57,8 +117,15 @@ impl Tri2 {
             Kind::Regular(r, _) => r.locate(place),
         }
     }
+}
 
-    /// The row of a triangle that a place is in, or -1.
+impl Places<2> for Tri2 {
+    const MOST_POINTS: usize = MAX_POINTS;
+
+    fn count(&self) -> usize {
+        self.points().len()
+    }
+
     fn row_at(&self, place: [f64; 2]) -> Result<i64, Error> {
         let (mesh, rows) = (self.mesh(), self.rows());
         let first = |of: &mut dyn Iterator<Item = TriangleId>| of.map(|t| rows.of(t)).find(|&row| row >= 0);
@@ -89,16 +156,7 @@ pub(crate) unsafe extern "C" fn delone_tri2_locate(
 ) -> i32 {
     guard(error, || {
         // SAFETY: `delone.h` promises a handle, places, and room for a number each.
-        unsafe {
-            let (t, places) = (handle(t)?, read::<2>(places, MAX_POINTS)?);
-            finite(&places)?;
-            t.rows();
-            let all = each_task(&places, |places| {
-                Ok(places.iter().map(|&p| t.row_at(p)).collect::<Result<_, _>>()?)
-            })?;
-            write(triangles, all.into_iter());
-        }
-        Ok(())
+        unsafe { locate(t, places, triangles) }
     })
 }
 
@@ -112,20 +170,7 @@ pub(crate) unsafe extern "C" fn delone_tri2_nearest(
 ) -> i32 {
     guard(error, || {
         // SAFETY: `delone.h` promises a handle, places, and room for k numbers each.
-        unsafe {
-            let (t, places) = (handle(t)?, read::<2>(places, MAX_POINTS)?);
-            finite(&places)?;
-            let k = k as usize;
-            let all = each_task(&places, |places| {
-                let mut found = Vec::new();
-                for &place in places {
-                    found.extend(nearest_rows(t.k_nearest(place, k.min(t.points().len()))?, k));
-                }
-                Ok(found)
-            })?;
-            write(vertices, all.into_iter());
-        }
-        Ok(())
+        unsafe { nearest(t, places, k, vertices) }
     })
 }
 

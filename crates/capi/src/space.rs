@@ -6,7 +6,9 @@ use delone::{Delaunay3, Error, Location3, MAX_POINTS_IN_SPACE, TetrahedronId, Tr
 use crate::failure::{CError, Failure, Status, guard};
 use crate::memory;
 use crate::points::{CPoints, clear, give, handle, list, read, write};
-use crate::queries::{LAPLACE, LINEAR, NEAREST, SIBSON, each_task, finite, nearest_rows, table, values};
+use crate::queries::{
+    LAPLACE, LINEAR, NEAREST, Places, SIBSON, each_task, finite, locate, nearest, table, values,
+};
 use crate::rows::{CCounts, fill, number};
 use crate::run::run;
 
@@ -33,8 +35,19 @@ impl Tri3 {
     fn row(&self, t: TetrahedronId) -> i32 {
         self.rows.get(self.d.index(t)).copied().unwrap_or(-1)
     }
+}
 
-    /// The row of a tetrahedron that a place is in, or -1.
+impl Places<3> for Tri3 {
+    const MOST_POINTS: usize = MAX_POINTS_IN_SPACE;
+
+    fn count(&self) -> usize {
+        self.points
+    }
+
+    fn k_nearest(&self, place: [f64; 3], k: usize) -> Result<Vec<VertexId>, Error> {
+        self.d.k_nearest(place, k)
+    }
+
     fn row_at(&self, place: [f64; 3]) -> Result<i64, Error> {
         let around = |vertices: &[VertexId]| {
             let all = vertices.first().map(|&v| self.d.tetrahedra_at(v)).unwrap_or_default();
@@ -146,15 +159,7 @@ pub(crate) unsafe extern "C" fn delone_tri3_locate(
 ) -> i32 {
     guard(error, || {
         // SAFETY: `delone.h` promises a handle, places, and room for a number each.
-        unsafe {
-            let (t, places) = (handle(t)?, read::<3>(places, MAX_POINTS_IN_SPACE)?);
-            finite(&places)?;
-            let all = each_task(&places, |places| {
-                Ok(places.iter().map(|&p| t.row_at(p)).collect::<Result<_, _>>()?)
-            })?;
-            write(tetrahedra, all.into_iter());
-        }
-        Ok(())
+        unsafe { locate(t, places, tetrahedra) }
     })
 }
 
@@ -168,20 +173,7 @@ pub(crate) unsafe extern "C" fn delone_tri3_nearest(
 ) -> i32 {
     guard(error, || {
         // SAFETY: `delone.h` promises a handle, places, and room for k numbers each.
-        unsafe {
-            let (t, places) = (handle(t)?, read::<3>(places, MAX_POINTS_IN_SPACE)?);
-            finite(&places)?;
-            let k = k as usize;
-            let all = each_task(&places, |places| {
-                let mut found = Vec::new();
-                for &place in places {
-                    found.extend(nearest_rows(t.d.k_nearest(place, k.min(t.points))?, k));
-                }
-                Ok(found)
-            })?;
-            write(vertices, all.into_iter());
-        }
-        Ok(())
+        unsafe { nearest(t, places, k, vertices) }
     })
 }
 

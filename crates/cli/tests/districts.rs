@@ -86,6 +86,26 @@ fn areas_may_share_sides_and_overlap() {
     assert!((1.35..1.4).contains(&inner), "{inner}");
 }
 
+/// Whether a ring is a hole is no matter of its area, which may be too small for a number.
+#[test]
+fn tiny_cells_are_written() {
+    let place = Place::new();
+    let square = |x: i32, y: i32| {
+        format!(
+            "POLYGON (({x}e-200 {y}e-200, {0}e-200 {y}e-200, {0}e-200 {1}e-200, {x}e-200 {1}e-200, {x}e-200 {y}e-200))\n",
+            x + 1,
+            y + 1
+        )
+    };
+    place.file("a.wkt", (0..9).map(|k| square(k / 6, k % 6)).collect::<String>());
+    place.succeed(
+        "voronoi a.wkt --of areas --tolerance 1e-202 --box=-1e-200,-1e-200,7e-200,7e-200 -o c.geojson",
+    );
+    let cells = json(&place, "c.geojson");
+    let features = cells["features"].as_array().expect("features");
+    assert!(features.len() == 9 && features.iter().all(|feature| !feature["geometry"].is_null()));
+}
+
 #[test]
 fn what_is_for_points_is_refused() {
     let place = Place::new();

@@ -265,3 +265,29 @@ fn long_borders_and_hubs_are_no_squares_of_work() {
         assert!((area - 4.0).abs() < 1e-9);
     }
 }
+
+/// Powers of two change nothing but sizes, and neither does the order of areas that share no place.
+#[test]
+fn cells_of_areas_are_a_function_of_the_areas() {
+    let square = |x: f64, y: f64| vec![[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0], [x, y]];
+    let squares: Vec<Vec<[f64; 2]>> = (0..9).map(|k| square(f64::from(k / 6), f64::from(k % 6))).collect();
+    let areas = |by: f64| {
+        let scaled: Vec<Vec<[f64; 2]>> =
+            squares.iter().map(|ring| ring.iter().map(|p| p.map(|x| x * by)).collect()).collect();
+        let (points, segments, of) = parts(&scaled);
+        let region = Region2::rectangle([-by; 2], [7.0 * by; 2]).expect("a box");
+        let made = LineCells2::of_areas(&points, &segments, &of, &region, 0.02 * by).expect("cells");
+        // Corners rather than areas: these vanish before lengths do.
+        let corners = |area| -> Vec<[f64; 2]> {
+            made.cells.rings(VertexId::new(area)).flat_map(|ring| ring.points()).collect()
+        };
+        (0..9)
+            .map(|area| corners(area).into_iter().map(|p| p.map(|x| x / by)).collect())
+            .collect::<Vec<Vec<_>>>()
+    };
+    let expected = areas(1.0);
+    assert!(expected.iter().all(|corners| corners.len() > 3));
+    for power in [-900, -660, -300, -100, 100, 300, 660, 900] {
+        assert_eq!(areas(2.0_f64.powi(power)), expected, "{power}");
+    }
+}

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::{Cells2, LineCells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
-use crate::{Crs, Features, Rows, Table};
+use crate::{Crs, Features, Rows, Table, rings};
 
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Debug)]
@@ -94,16 +94,10 @@ pub(crate) trait Tiles {
         if rings.len() < 2 {
             return rings.into_iter().map(|ring| vec![ring]).collect();
         }
-        let (outer, holes): (Vec<_>, Vec<_>) = rings.into_iter().partition(|ring| ring.area() > 0.0);
-        let mut polygons: Vec<Vec<Ring>> = outer.into_iter().map(|ring| vec![ring]).collect();
-        for hole in holes {
-            let inside = |polygon: &Vec<Ring>| hole.points().next().is_some_and(|p| contains(polygon[0], p));
-            let around = polygons.iter().position(inside).unwrap_or(0);
-            if let Some(polygon) = polygons.get_mut(around) {
-                polygon.push(hole);
-            }
-        }
-        polygons
+        let closed: Vec<rings::Ring> =
+            rings.iter().map(|ring| rings::Ring::of(ring.points().collect())).collect();
+        let polygons = rings::polygons(&closed, |i| !closed[i].is_counter_clockwise());
+        polygons.into_iter().map(|all| all.into_iter().map(|i| rings[i]).collect()).collect()
     }
 
     /// The corners of all tiles, and all sites.
@@ -244,12 +238,4 @@ impl<'a> Tiles for OrderDiagram<'a> {
 fn joined(region: OrderRegion2, separator: &str) -> String {
     let sites: Vec<String> = region.sites().iter().map(|v| v.index().to_string()).collect();
     sites.join(separator)
-}
-
-/// Whether a ring goes around a point, up to rounding.
-fn contains(ring: Ring, [x, y]: [f64; 2]) -> bool {
-    let crosses = |[p, q]: &[[f64; 2]; 2]| {
-        (p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])
-    };
-    ring.sides().filter(crosses).count() % 2 == 1
 }

@@ -39,6 +39,7 @@ mod paths;
 pub mod picture;
 mod polyhedra;
 mod raster;
+mod rings;
 mod solid;
 mod strings;
 mod tiled;

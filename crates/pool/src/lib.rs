@@ -6,6 +6,7 @@
 //! threads that do not exist, and it may be locked by one of them.
 
 mod fork;
+mod memory;
 
 use std::cell::OnceCell;
 use std::num::NonZero;
@@ -16,6 +17,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 pub use fork::survive_forks;
+pub use memory::has_room;
 
 /// Items, up to which the calling thread does the work: the library would cut it into one part anyway.
 pub const SERIAL_ITEMS: usize = 20_000;

@@ -142,7 +142,7 @@ fn check_room(c: &Constrained2, fill: &Fill, s: &Switches) -> Result<(), Fault> 
     let area: f64 = c.triangle_ids().filter(|&t| domains.is_inside(t)).map(|t| c.area(t)).sum();
     let bytes = (area / largest).min(usize::MAX as f64) as usize;
     let bytes = bytes.saturating_mul(BYTES_PER_TRIANGLE);
-    if Vec::<u8>::new().try_reserve_exact(bytes).is_err() {
+    if !delone_pool::has_room(bytes) {
         return Err(Fault::memory(bytes, "as many triangles as switch a asks for"));
     }
     Ok(())

@@ -106,7 +106,7 @@ impl Input {
                 let words = format!("numberofpoints is {points}, and a triangle has three");
                 return Err(Fault::new(Status::Argument, words));
             }
-            if Vec::<u8>::new().try_reserve_exact(points.saturating_mul(BYTES_PER_POINT)).is_err() {
+            if !delone_pool::has_room(points.saturating_mul(BYTES_PER_POINT)) {
                 return Err(Fault::memory(points.saturating_mul(BYTES_PER_POINT), "the points"));
             }
             let attribute_count = count((*io).numberofpointattributes, "numberofpointattributes")?;

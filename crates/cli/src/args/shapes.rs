@@ -184,7 +184,7 @@ pub(crate) struct VoronoiArgs {
     /// Sites at most this far apart become one, before the cells are made.
     #[arg(long, value_name = "DISTANCE", value_parser = length, allow_negative_numbers = true)]
     pub(crate) weld: Option<f64>,
-    /// The sites: points, lines (each feature, which may be a polygon for its border), or areas (polygons that do not overlap). The cell of a line is where it is the nearest one.
+    /// The sites: points, lines (each feature, which may be a polygon for its border), or areas (polygons; what is inside of one is its own). The cell of a line is where it is the nearest one.
     #[arg(long, value_name = "WHAT", default_value = "points")]
     pub(crate) of: OfName,
     /// Instead of cells the medial axis of polygons: edges in their middle, with `width`, as GeoJSON, FlatGeobuf, GeoPackage, text or npy. Both sides of the border are seen under at least so many degrees, which leaves corners out that are nearly straight.

@@ -36,7 +36,6 @@ pub(crate) mod polyhedra;
 pub(crate) mod ptx;
 pub(crate) mod quads;
 pub(crate) mod raw;
-mod rings;
 pub(crate) mod shapefile;
 pub(crate) mod shapes;
 pub(crate) mod sms;

@@ -7,8 +7,8 @@
 //! Source: <https://wiki.openstreetmap.org/wiki/Osmosis/Polygon_Filter_File_Format>.
 
 use super::lines::Lines;
-use super::rings::{Ring, polygons};
 use super::shapes::Shapes;
+use crate::rings::{Ring, polygons};
 use crate::{Crs, Error, Source};
 
 /// Longitude and latitude of WGS 84, which all files have.

@@ -1,7 +1,7 @@
 //! Voronoi cells of areas: the inside of an area is its own, and the places outside of all belong to the nearest one.
 //!
 //! Sites along the borders have cells as those of lines do ([`LineCells2`]), which are clipped to what is outside of all areas. Each area is joined with the cells of
-//! its sites. So areas may share sides, and no gap between two is too narrow.
+//! its sites. So areas may share sides. Slits that are hardly wider than a rounding are closed before ([`Weld2`]), so no gap is too narrow.
 //!
 //! Cost: that of the cells of lines, and a constrained triangulation of the borders.
 
@@ -10,11 +10,12 @@ use std::collections::BTreeMap;
 use super::cells::Cells2;
 use super::lines::{Borders, LineCells2, checked};
 use crate::error::Error;
-use crate::ids::VertexId;
+use crate::ids::{TriangleId, VertexId};
 use crate::plane::constrained::{
     Constrained2, Crossings, Fill, Membership2, Overlaps2, PolygonRegion2, SegmentId,
 };
 use crate::plane::region::Region2;
+use crate::plane::weld::Weld2;
 use crate::points::Position2;
 
 /// A place as it is compared: zero has no sign.
@@ -24,13 +25,17 @@ fn key(p: [f64; 2]) -> Key {
     p.map(|x| (x + 0.0).to_bits())
 }
 
+/// As a part of the largest coordinate: some thousand steps between numbers. A slit between areas that is narrower has no room for corners of
+/// cells, which are rounded, and is closed: cells across slits of 100 steps were invalid now and then, of 1,000 steps never.
+const SLIT_WIDTH: f64 = 4096.0 * f64::EPSILON;
+
 /// A ring.
 type Places = Vec<[f64; 2]>;
 
 impl LineCells2 {
     /// The cells of areas in a region: the inside of each area, with the places outside of all that are nearer to it than to any other. Segments
     /// are between points by index; `areas` has the area of each, which an odd number of its segments is around. Areas may touch and
-    /// share sides; of places in several the one of the least number has them. The tolerance is that of [`LineCells2::new`].
+    /// share sides, and slits narrower than 2^-40 of the largest coordinate are closed; of places in several the one of the least number has them. The tolerance is that of [`LineCells2::new`].
     ///
     /// # Errors
     /// As [`LineCells2::new`].
@@ -56,6 +61,8 @@ impl LineCells2 {
         tolerance: f64,
     ) -> Result<Self, Error> {
         checked(segments.len(), areas.len(), tolerance)?;
+        let (segments, areas) = without_slits(points, segments, areas)?;
+        let (segments, areas) = (&segments[..], &areas[..]);
         let c = Constrained2::with_crossings(points, segments, Crossings::Split)?;
         let mut made = Self::default();
         let mut pieces = made.pieces(&c, |segment| areas[segment.index()]);
@@ -64,11 +71,11 @@ impl LineCells2 {
         let count = areas.iter().max().map_or(0, |last| last + 1);
         let plan = Plan::new(points, segments, areas, region)?;
         let outside = plan.rings_of(count);
-        let beyond = match Region2::polygon(&outside) {
-            Ok(outside) => d.voronoi().clip(&outside),
-            // Areas fill the region.
-            Err(Error::Region { .. }) => Cells2::default(),
-            Err(error) => return Err(error),
+        // Areas may fill the region.
+        let beyond = if outside.is_empty() {
+            Cells2::default()
+        } else {
+            d.voronoi().clip(&Region2::polygon(&outside)?)
         };
         let stretches = stretches(&beyond, &outside);
         let sites = made.sites.len();
@@ -82,6 +89,25 @@ impl LineCells2 {
         made.cells = all.joined(group, count);
         Ok(made)
     }
+}
+
+/// Segments and their areas, with slits closed. A segment that became a point is one: its area has a cell all the same.
+fn without_slits<P: Position2>(
+    points: &[P],
+    segments: &[[usize; 2]],
+    areas: &[usize],
+) -> Result<(Vec<[usize; 2]>, Vec<usize>), Error> {
+    let farthest = points.iter().flat_map(Position2::xy).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let welded = Weld2::new(points, segments, SLIT_WIDTH * farthest)?;
+    let mut closed: Vec<[usize; 2]> = welded.segments;
+    let mut of: Vec<usize> = welded.origins.iter().map(|&segment| areas[segment]).collect();
+    let points =
+        segments.iter().zip(areas).filter(|(ends, _)| welded.stays[ends[0]] == welded.stays[ends[1]]);
+    for (ends, &area) in points {
+        closed.push([welded.stays[ends[0]]; 2]);
+        of.push(area);
+    }
+    Ok((closed, of))
 }
 
 /// The areas within the region, and last what is outside of all, by the triangles of their borders.
@@ -111,20 +137,20 @@ impl Plan {
         let regions = vec![PolygonRegion2::new(0.0); count + 1];
         let several =
             c.claim_polygons_as(&mut domains, polygon, &regions, Overlaps2::Combined, Membership2::EvenOdd);
-        let mut triangles: Vec<Vec<Places>> = Vec::new();
-        let mut groups = Vec::new();
-        for t in c.triangle_ids() {
+        let group = |t: TriangleId| match domains.region(t)? {
+            own if own == count => Some(count),
             // Of several the last is the region.
-            let group = match domains.region(t) {
-                Some(own) if own == count => count,
-                Some(own) if own > count => match several[own - count - 1][..] {
-                    [first, .., last] if last == count => first,
-                    _ => continue,
-                },
-                _ => continue,
-            };
+            own if own > count => match several[own - count - 1][..] {
+                [first, .., last] if last == count => Some(first),
+                _ => None,
+            },
+            _ => None,
+        };
+        let (mut triangles, mut groups): (Vec<Vec<Places>>, Vec<usize>) = (Vec::new(), Vec::new());
+        for t in c.triangle_ids() {
+            let Some(own) = group(t) else { continue };
             triangles.push(vec![c.mesh().corners(t).map(|v| c.point(v)).to_vec()]);
-            groups.push(group);
+            groups.push(own);
         }
         let cells = Cells2::of_rings(triangles.into_iter());
         Ok(Self { cells: cells.joined(|t| groups.get(t.index()).copied(), count + 1) })

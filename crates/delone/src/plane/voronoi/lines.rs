@@ -247,9 +247,8 @@ impl<'a> Round<'a> {
         let mut marked: Vec<usize> = may_be_crossed.filter(|&piece| self.may_be_divided(piece)).collect();
         let mut deviation: f64 = 0.0;
         let mesh = self.d.mesh();
-        let divisible = (0..self.pieces.len()).filter(|&piece| self.may_be_divided(piece)).collect();
-        let depth = MEASURED_PART * self.borders.tolerance;
-        let discs = Discs::new(&self.made.sites, self.pieces, divisible, depth);
+        // Borders within one line are measured alone.
+        let discs = self.borders.cosine.is_none().then(|| self.discs());
         for e in mesh.undirected_edges() {
             let sites = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
             let [one, other] = sites.map(|site| self.made.lines[site]);
@@ -261,7 +260,7 @@ impl<'a> Round<'a> {
             }
             let Some([p, q]) = self.within(self.d.voronoi().edge(e)) else { continue };
             let middle = [0, 1].map(|k| 0.5 * p[k] + 0.5 * q[k]);
-            if self.borders.cosine.is_none() {
+            if let Some(discs) = &discs {
                 let is_own = |piece| sites.iter().any(|&site| self.at_sites[site].contains(&piece));
                 let reach = |piece| if is_own(piece) { OWN_REACH } else { 1.0 };
                 discs.mark([p, q], sites[0], reach, &mut marked);
@@ -287,14 +286,20 @@ impl<'a> Round<'a> {
                 }
             }
         }
-        if self.borders.cosine.is_some() {
-            self.mark_far(changed, &mut marked);
-        } else {
-            self.mark_rim(&discs, &mut marked);
+        match &discs {
+            Some(discs) => self.mark_rim(discs, &mut marked),
+            None => self.mark_far(changed, &mut marked),
         }
         marked.sort_unstable();
         marked.dedup();
         (marked, deviation)
+    }
+
+    /// The pieces that may be divided, to be asked about discs.
+    fn discs(&self) -> Discs<'_> {
+        let divisible = (0..self.pieces.len()).filter(|&piece| self.may_be_divided(piece)).collect();
+        let depth = MEASURED_PART * self.borders.tolerance;
+        Discs::new(&self.made.sites, self.pieces, divisible, depth)
     }
 
     /// Marks pieces that reach into the box around the region through a stretch of its border that is in the cell of another line.

@@ -10,8 +10,8 @@ use std::io::Read;
 
 use self::table::{Rows, State};
 use super::poly::Beside;
-use super::rings::{Ring, polygons};
 use super::shapes::Shapes;
+use crate::rings::{Ring, polygons};
 use crate::{Error, ReadOptions, Source};
 
 /// The extensions of what lies beside.

@@ -1,6 +1,6 @@
 //! Layers of everything that is written, with the properties that GeoJSON has.
 
-use delone::{Coordinates, Ring, Triangulation, VertexId};
+use delone::{Coordinates, Triangulation, VertexId};
 
 use super::{Column, Form, Geometry, Kind, Layer, Take, beside, cells};
 use crate::diagram::Tiles;
@@ -36,8 +36,7 @@ impl<T: Tiles> Layer for Cells<'_, T> {
 
     fn form(&self) -> Option<Form> {
         // Two rings are two polygons or one with a hole.
-        let is_outer = |ring: &Ring| ring.area() > 0.0;
-        let is_multiple = self.0.tiles().any(|tile| self.0.rings(tile).filter(is_outer).nth(1).is_some());
+        let is_multiple = self.0.tiles().any(|tile| self.0.polygons(tile).len() > 1);
         Some(Form { kind: Kind::Polygon, is_multiple })
     }
 

@@ -1,4 +1,4 @@
-//! Holes find the polygons that they are in, in formats whose rings are one after another.
+//! Holes find the polygons that they are in, where rings are one after another.
 //!
 //! Decisions are exact. Cost: O(log n) for n outer rings, and the corners of those whose box is around the hole.
 
@@ -7,14 +7,14 @@ use std::ops::Range;
 use delone_predicates::{Sign, orient2d};
 
 /// A ring without the position at its end, with its box.
-pub(super) struct Ring {
+pub(crate) struct Ring {
     points: Vec<[f64; 2]>,
     low: [f64; 2],
     high: [f64; 2],
 }
 
 /// The rings of each polygon, the outer one first: a hole is of the innermost ring around it. Those around which there is none are polygons.
-pub(super) fn polygons(rings: &[Ring], is_hole: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+pub(crate) fn polygons(rings: &[Ring], is_hole: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|&i| !is_hole(i));
     let mut polygons: Vec<Vec<usize>> = outer.into_iter().map(|ring| vec![ring]).collect();
     let boxes = Boxes::of(polygons.iter().map(|polygon| &rings[polygon[0]]).collect());
@@ -37,7 +37,7 @@ pub(super) fn polygons(rings: &[Ring], is_hole: impl Fn(usize) -> bool) -> Vec<V
 }
 
 impl Ring {
-    pub(super) fn of(mut points: Vec<[f64; 2]>) -> Self {
+    pub(crate) fn of(mut points: Vec<[f64; 2]>) -> Self {
         if points.first() == points.last() {
             points.pop();
         }
@@ -50,7 +50,7 @@ impl Ring {
     }
 
     /// Whether it is counter-clockwise, by its least corner.
-    pub(super) fn is_counter_clockwise(&self) -> bool {
+    pub(crate) fn is_counter_clockwise(&self) -> bool {
         let n = self.points.len();
         if !self.points.as_flattened().iter().all(|x| x.is_finite()) {
             return false;
