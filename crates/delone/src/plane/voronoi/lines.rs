@@ -23,6 +23,7 @@ use delone_predicates::{angle, lexicographic};
 
 use super::VoronoiEdge2;
 use super::cells::Cells2;
+use super::crossed::{mark_crossed, middle};
 use super::discs::Discs;
 use crate::error::Error;
 use crate::ids::{EdgeId, MAX_POINTS, VertexId};
@@ -188,11 +189,11 @@ impl LineCells2 {
         for piece in marked {
             let Piece { ends: [v, w], line } = pieces[piece];
             let [a, b] = [v, w].map(|site| self.sites[site]);
-            let middle = self.sites.len();
-            self.sites.push([0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]));
+            let new = self.sites.len();
+            self.sites.push(middle([a, b]));
             self.lines.push(line);
-            pieces[piece].ends = [v, middle];
-            pieces.push(Piece { ends: [middle, w], line });
+            pieces[piece].ends = [v, new];
+            pieces.push(Piece { ends: [new, w], line });
         }
         Ok(())
     }
@@ -292,14 +293,23 @@ impl<'a> Round<'a> {
         }
         marked.sort_unstable();
         marked.dedup();
+        mark_crossed(&self.made.sites, self.pieces, &self.divisible(), &mut marked);
         (marked, deviation)
+    }
+
+    fn ends(&self, piece: usize) -> [[f64; 2]; 2] {
+        self.pieces[piece].ends.map(|site| self.made.sites[site])
+    }
+
+    /// The pieces that may be divided.
+    fn divisible(&self) -> Vec<usize> {
+        (0..self.pieces.len()).filter(|&piece| self.may_be_divided(piece)).collect()
     }
 
     /// The pieces that may be divided, to be asked about discs.
     fn discs(&self) -> Discs<'_> {
-        let divisible = (0..self.pieces.len()).filter(|&piece| self.may_be_divided(piece)).collect();
         let depth = MEASURED_PART * self.borders.tolerance;
-        Discs::new(&self.made.sites, self.pieces, divisible, depth)
+        Discs::new(&self.made.sites, self.pieces, self.divisible(), depth)
     }
 
     /// Marks pieces that reach into the box around the region through a stretch of its border that is in the cell of another line.
@@ -360,14 +370,13 @@ impl<'a> Round<'a> {
     }
 
     fn length(&self, piece: usize) -> f64 {
-        let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
+        let [a, b] = self.ends(piece);
         (b[0] - a[0]).hypot(b[1] - a[1])
     }
 
     fn may_be_divided(&self, piece: usize) -> bool {
-        let [a, b] = self.pieces[piece].ends.map(|site| self.made.sites[site]);
-        let middle = [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
-        middle != a && middle != b && self.length(piece) > LEAST_PIECE * self.borders.tolerance
+        let ends = self.ends(piece);
+        !ends.contains(&middle(ends)) && self.length(piece) > LEAST_PIECE * self.borders.tolerance
     }
 
     /// For each piece, whether it is an edge with no site in the circle on it, and both ends are sites of its line.

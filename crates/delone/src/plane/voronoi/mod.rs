@@ -20,6 +20,7 @@ pub(in crate::plane) mod cells;
 pub(in crate::plane) mod centers;
 pub(in crate::plane) mod clip;
 mod contract;
+mod crossed;
 mod discs;
 mod joined;
 mod lines;
