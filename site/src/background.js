@@ -1,9 +1,7 @@
 // Workers, as promises. Each figure has one of its own, so that none waits for the work of another or ends it.
 
-import source from "worker:text";
-
-/** A worker, made when it is first needed, and made anew when a task is given up. */
-export function background() {
+/** A worker of a script's text, made when it is first needed, and made anew when a task is given up. */
+export function background(source) {
   let worker;
   let next = 0;
   const tasks = new Map();

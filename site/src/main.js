@@ -1,29 +1,28 @@
-// The page: each figure alone, so that one that fails says so and leaves the others alive.
+// The page: the workbench at once, the figures below it when they come near or there is nothing else to do.
 
-import {circle} from "./figures/circle.js";
-import {data} from "./figures/data.js";
-import {location} from "./figures/location.js";
-import {one} from "./figures/one.js";
-import {play} from "./figures/play.js";
-import {race} from "./figures/race.js";
-import {steps} from "./figures/steps.js";
-import {surface} from "./figures/surface.js";
-import {voronoi} from "./figures/voronoi.js";
-import {walls} from "./figures/walls.js";
+import {load} from "./load.js";
+import {workbench} from "./workbench/bench.js";
 
-const figures = {play, circle, one, voronoi, location, steps, walls, surface, data, race};
-
-for (const [name, begin] of Object.entries(figures)) {
-  const section = document.getElementById(name);
-  const status = section.querySelector("figcaption");
-  const tell = (text, isError = false) => {
-    status.textContent = text;
-    status.classList.toggle("error", isError);
-  };
-  try {
-    begin(section, tell);
-  } catch (error) {
-    tell(`This figure does not work here: ${error.message}`, true);
-  }
+const bench = document.getElementById("bench");
+try {
+  workbench(bench);
+} catch (error) {
+  const status = bench.querySelector("#bench-status");
+  status.textContent = `The workbench does not work here: ${error.message}`;
+  status.className = "error";
 }
-document.documentElement.dataset.ready = "true";
+document.documentElement.dataset.bench = "true";
+
+const figures = () => load("figures.js").catch(({message}) => {
+  for (const caption of document.querySelectorAll("figcaption")) caption.textContent = `The figures do not work here: ${message}`;
+});
+const near = new IntersectionObserver(
+  (entries) => {
+    if (!entries.some(({isIntersecting}) => isIntersecting)) return;
+    near.disconnect();
+    figures();
+  },
+  {rootMargin: "600px"},
+);
+near.observe(document.getElementById("play"));
+addEventListener("load", () => (globalThis.requestIdleCallback ?? setTimeout)(figures));

@@ -1,8 +1,9 @@
 // Points that come, go and move: up to a few thousand one by one, more of them all anew in every frame, a million off the page's thread.
 
 import {Delaunator, Delaunay} from "delone/full";
+import source from "worker:worker.js";
 import {background} from "../background.js";
-import {edgePainter} from "../lines.js";
+import {edgePainter} from "../coverage.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
 
@@ -16,7 +17,7 @@ const HUGE = 200_000;
 export function play(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#play-${name}`);
-  const worker = background();
+  const worker = background(source);
   const paint = edgePainter();
   let coords = new Float64Array(0);
   let gone = new Set();

@@ -1,11 +1,12 @@
 // Ours against delaunator, in a worker.
 
+import source from "worker:worker.js";
 import {background} from "../background.js";
 import {scatter} from "../random.js";
 
 export function race(section, tell) {
   const of = (name) => section.querySelector(`#race-${name}`);
-  const worker = background();
+  const worker = background(source);
   const busy = (is) => {
     of("start").disabled = is;
     of("cancel").disabled = !is;

@@ -1,2 +1,0 @@
-// The reader of point clouds, as a global: loaded with the first of them.
-export {readLas} from "delone/laz";

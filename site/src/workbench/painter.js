@@ -1,0 +1,97 @@
+// The thread that holds what is seen: it paints pictures and tells what is below the pointer, while the program works in another one.
+
+import {Delaunay} from "delone";
+import {answer} from "../answer.js";
+import {geojson, npy, ply, wkb} from "./outputs.js";
+import {Scene} from "./scene.js";
+
+const scene = new Scene();
+/** Finds the nearest point; made when it is first asked for. */
+let finder;
+
+const tasks = {
+  /** Begins with a mesh of all points. */
+  begin({bytes, isGeographic}) {
+    finder?.dispose();
+    finder = undefined;
+    scene.begin(bytes ? ply(bytes) : {triangles: new Uint32Array(0)}, isGeographic);
+    const {heights} = scene;
+    return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, heights};
+  },
+
+  /** Takes the output of a view. */
+  layer({name, format, bytes, isFilled}) {
+    if (format === "ply") scene.addMesh(name, ply(bytes));
+    else if (format === "npy") scene.addIndices(name, npy(bytes), name === "hull");
+    else scene.addPaths(name, (format === "wkb" ? wkb : geojson)(bytes), isFilled);
+    return {};
+  },
+
+  drop({name}) {
+    scene.drop(name);
+    return {};
+  },
+
+  complete: () => ({isOther: scene.complete()}),
+
+  paint({width, height, view, look}) {
+    const start = performance.now();
+    const bytes = scene.paint(width, height, view, look);
+    return {bytes, width, height, view, ms: performance.now() - start, transfer: [bytes.buffer]};
+  },
+
+  /** The nearest point, and the triangle and the area at a place, as shares and as they came. */
+  pick({x, y, reach, shown}) {
+    if (!scene.points?.length) return {};
+    finder ??= new Delaunay(scene.points);
+    const i = finder.find(x, y);
+    const {points} = scene;
+    const isNear = i >= 0 && Math.hypot(points[2 * i] - x, points[2 * i + 1] - y) <= reach;
+    const found = {};
+    if (isNear) found.point = {i, at: [points[2 * i], points[2 * i + 1]], place: [scene.x[i], scene.y[i]], height: scene.z?.[i]};
+    const mesh = ["mesh", "triangles"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
+    if (mesh) found.triangle = triangleAt(mesh, x, y);
+    const areas = ["cells", "alpha"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
+    if (areas) found.area = areaAt(areas, x, y);
+    return found;
+  },
+};
+
+function triangleAt({points, triangles, z}, x, y) {
+  const at = (i) => [points[2 * i], points[2 * i + 1]];
+  const turn = ([ax, ay], [bx, by]) => (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [ax, bx, cx] = [points[2 * triangles[t]], points[2 * triangles[t + 1]], points[2 * triangles[t + 2]]];
+    if ((ax < x && bx < x && cx < x) || (ax > x && bx > x && cx > x)) continue;
+    const corners = [at(triangles[t]), at(triangles[t + 1]), at(triangles[t + 2])];
+    if (turn(corners[0], corners[1]) < 0 || turn(corners[1], corners[2]) < 0 || turn(corners[2], corners[0]) < 0) continue;
+    const indices = Array.from(triangles.subarray(t, t + 3));
+    return {number: t / 3, indices, corners, heights: z && indices.map((i) => z[i])};
+  }
+  return undefined;
+}
+
+/** The rings of the feature that a place is in, by the number of times that a ray to the right crosses them. */
+function areaAt({points, ends, features}, x, y) {
+  let start = 0;
+  let inside = -1;
+  for (let k = 0; k < ends.length && inside < 0; k++) {
+    let isIn = false;
+    for (let i = start; i + 1 < ends[k]; i++) {
+      const [ay, by] = [points[2 * i + 1], points[2 * i + 3]];
+      if (ay > y === by > y) continue;
+      if (points[2 * i] + ((y - ay) / (by - ay)) * (points[2 * i + 2] - points[2 * i]) > x) isIn = !isIn;
+    }
+    if (isIn) inside = features[k];
+    start = ends[k];
+  }
+  if (inside < 0) return undefined;
+  const rings = [];
+  ends.forEach((end, k) => {
+    if (features[k] !== inside) return;
+    rings.push(Array.from({length: end - (k ? ends[k - 1] : 0)}, (_, i) => [points[2 * ((k ? ends[k - 1] : 0) + i)], points[2 * ((k ? ends[k - 1] : 0) + i) + 1]]));
+  });
+  return {number: inside, rings};
+}
+
+answer(tasks);

@@ -1,0 +1,93 @@
+// What the workbench shows, as an address: set, options and views after the "#". Back, forward and reload keep it.
+
+import {views} from "./views.js";
+
+export const empty = () => ({
+  source: {kind: "none"},
+  read: {columns: "", classes: "", epsg: "", crossings: ""},
+  views: {triangles: {}},
+  fill: "none",
+  dots: true,
+});
+
+/** Texts up to here go into the address: browsers and mails take links of some thousand letters. In letters. */
+const LONGEST_TEXT = 6000;
+
+/** The part of an address after the "#". */
+export function toHash({source, read, views, fill, dots}) {
+  const words = new URLSearchParams();
+  const put = (key, value) => value !== "" && value !== undefined && words.set(key, value);
+  if (source.kind === "set") [["set", source.name], ["n", source.count], ["seed", source.seed]].forEach((pair) => put(...pair));
+  if (source.kind === "sample") put("sample", source.name);
+  if (source.kind === "files") put("file", source.names.join("|"));
+  if (source.kind === "text") {
+    put("name", source.name);
+    if (source.text.length <= LONGEST_TEXT) put("text", source.text);
+  }
+  Object.entries(read).forEach((pair) => put(...pair));
+  put("views", Object.keys(views).join(","));
+  for (const [name, options] of Object.entries(views)) for (const [key, value] of Object.entries(options)) put(`${name}.${key}`, value);
+  if (fill !== "none") put("fill", fill);
+  if (!dots) put("dots", "off");
+  return `#${words}`;
+}
+
+/** The state that an address tells, or nothing if it tells none. What it has that there is not is left out. */
+export function fromHash(hash) {
+  const words = new URLSearchParams(hash.replace(/^#/, ""));
+  const state = empty();
+  const get = (key) => words.get(key) ?? "";
+  if (words.has("set")) state.source = {kind: "set", name: get("set"), count: get("n") || "1000", seed: get("seed") || "0"};
+  else if (words.has("sample")) state.source = {kind: "sample", name: get("sample")};
+  else if (words.has("text")) state.source = {kind: "text", name: get("name") || "points.csv", text: get("text")};
+  else if (words.has("file")) state.source = {kind: "files", names: get("file").split("|")};
+  else return undefined;
+  for (const key of Object.keys(state.read)) state.read[key] = get(key);
+  state.views = {};
+  for (const name of get("views").split(",")) {
+    if (!Object.hasOwn(views, name)) continue;
+    const given = views[name].options.map(({key}) => [key, get(`${name}.${key}`)]);
+    state.views[name] = Object.fromEntries(given.filter(([, value]) => value !== ""));
+  }
+  if (["heights", "shade"].includes(get("fill"))) state.fill = get("fill");
+  state.dots = get("dots") !== "off";
+  return state;
+}
+
+/** Keeps states in the history of the browser. `show` is called with a state that becomes the present one. */
+export class Past {
+  #most = 0;
+  #now = 0;
+  #show;
+
+  constructor(show) {
+    this.#show = show;
+    this.#now = this.#most = history.state?.turn ?? 0;
+    addEventListener("popstate", ({state}) => {
+      // Links to the sections of the page are no states.
+      const found = state?.state ?? fromHash(location.hash);
+      if (!found) return;
+      this.#now = state?.turn ?? 0;
+      this.#show(found);
+    });
+  }
+
+  /** Remembers a state as the present one. */
+  add(state) {
+    this.#most = ++this.#now;
+    history.pushState({turn: this.#now, state: structuredClone(state)}, "", toHash(state));
+  }
+
+  /** The present state is another one, which no step leads back from. */
+  replace(state) {
+    history.replaceState({turn: this.#now, state: structuredClone(state)}, "", toHash(state));
+  }
+
+  get canUndo() {
+    return this.#now > 0;
+  }
+
+  get canRedo() {
+    return this.#now < this.#most;
+  }
+}

@@ -1,0 +1,45 @@
+// What is below the pointer, in words: beside it while it moves, below the stage once something is chosen.
+
+import {teller} from "./rows.js";
+
+const short = (number) => String(Number(number.toPrecision(10)));
+
+function angles(corners) {
+  const side = (k) => Math.hypot(corners[k][0] - corners[(k + 1) % 3][0], corners[k][1] - corners[(k + 1) % 3][1]);
+  const [a, b, c] = [side(0), side(1), side(2)];
+  const angle = (opposite, p, q) => (Math.acos(Math.min(Math.max((p * p + q * q - opposite * opposite) / (2 * p * q), -1), 1)) * 180) / Math.PI;
+  return Math.min(angle(a, b, c), angle(b, c, a), angle(c, a, b));
+}
+
+/** The area of a triangle in units of the coordinates. */
+function areaOf(corners, {extent, part, aspect}) {
+  const [[ax, ay], [bx, by], [cx, cy]] = corners;
+  return (Math.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2 / aspect) * (extent / part) ** 2;
+}
+
+/** Shows what was found; without anything nothing. */
+export async function tellOf(section, loaded, found, pixel, isChosen) {
+  const of = (name) => section.querySelector(`#bench-${name}`);
+  const tip = of("tip");
+  const lines = [];
+  if (found?.point) {
+    const {i, place, height} = found.point;
+    lines.push(`point ${i}: ${place.map(short).join(", ")}${height === undefined ? "" : `, height ${short(height)}`}`);
+    if (loaded?.names.length === 1) {
+      loaded.teller ??= teller(loaded.names[0], loaded.blobs[loaded.names[0]]).catch(() => () => []);
+      for (const [name, cell] of (await loaded.teller)(i)) lines.push(`${name}: ${cell}`);
+    }
+  } else if (found?.triangle) {
+    const {number, indices, corners} = found.triangle;
+    lines.push(`triangle ${number}: ${indices.join(", ")}`, `least angle ${angles(corners).toFixed(1)}°, area ${short(areaOf(corners, loaded.about.frame))}`);
+  }
+  if (found?.area && !found.point) lines.push(`area ${found.area.number}`);
+  tip.hidden = !lines.length;
+  tip.textContent = lines.join("\n");
+  if (pixel) {
+    const {clientWidth, clientHeight} = of("picture");
+    tip.style.left = `${Math.min(pixel[0] + 14, clientWidth - Math.min(220, clientWidth))}px`;
+    tip.style.top = `${Math.min(pixel[1] + 14, clientHeight - 60)}px`;
+  }
+  if (isChosen) of("chosen").textContent = lines.join(" · ");
+}

@@ -1,0 +1,92 @@
+// The views of the workbench: each is a command of the program with options, for the stage and for files to take away.
+
+/** Options by kind: a choice, a number, or a slider over powers of ten. */
+const number = (key, label, flag, more = {}) => ({key, label, flag, kind: "number", value: "", ...more});
+const choice = (key, label, flag, choices, value = choices[0]) => ({key, label, flag, kind: "choice", choices, value});
+
+/**
+ * `format` is what the stage reads; `command` the command of the program. `heights`: whether points without heights have nothing to show.
+ * Styles are names of colors, widths in pixels, and how much of what is below is hidden.
+ */
+export const views = {
+  triangles: {
+    title: "Triangles",
+    command: "triangulate",
+    format: "ply",
+    style: {color: "delaunay", wide: 1, alpha: 0.8},
+    options: [],
+    crossings: true,
+  },
+  cells: {
+    title: "Voronoi cells",
+    command: "voronoi",
+    format: "wkb",
+    style: {color: "voronoi", wide: 1, alpha: 1},
+    options: [choice("clip", "up to", "--clip", ["box", "hull"])],
+  },
+  hull: {
+    title: "Hull",
+    command: "hull",
+    format: "npy",
+    style: {color: "hull", wide: 3, alpha: 1},
+    options: [],
+  },
+  alpha: {
+    title: "Alpha shape",
+    command: "alpha",
+    format: "wkb",
+    isFilled: true,
+    style: {color: "chosen", wide: 1.5, alpha: 1},
+    options: [number("radius", "radius", "--radius", {slider: true})],
+    otherwise: ["--optimal"],
+  },
+  contours: {
+    title: "Contours",
+    command: "contours",
+    format: "geojson",
+    heights: true,
+    style: {color: "ink", wide: 1, alpha: 0.9},
+    options: [number("interval", "every", "--interval")],
+  },
+  mesh: {
+    title: "Mesh",
+    command: "mesh",
+    format: "ply",
+    style: {color: "hull", wide: 1, alpha: 0.9},
+    options: [number("angle", "least angle", "--min-angle", {min: 0, max: 34, step: 1}), number("area", "largest area", "--max-area", {min: 0})],
+    crossings: true,
+  },
+  graph: {
+    title: "Graph",
+    command: "graph",
+    format: "npy",
+    style: {color: "chosen", wide: 2, alpha: 1},
+    options: [choice("kind", "", "--kind", ["gabriel", "relative-neighbors", "spanning-tree"])],
+  },
+};
+
+/** Words of options that say how files are read. */
+export function reading({columns, classes, epsg}) {
+  return [
+    ...(columns ? ["--columns", columns] : []),
+    ...(classes ? ["--class", classes] : []),
+    ...(epsg ? ["--epsg", epsg] : []),
+  ];
+}
+
+/** The words of a view's command, without what it writes. `given` are its options, `read` those of the files. */
+export function wordsOf(name, given, names, read) {
+  const {command, options, otherwise = [], crossings} = views[name];
+  const set = options.flatMap(({key, flag, value}) => {
+    const now = given[key] ?? value;
+    return now === "" ? [] : [flag, String(now)];
+  });
+  const split = crossings && read.crossings ? ["--crossings", read.crossings] : [];
+  return [command, ...names, ...reading(read), ...(set.length ? set : otherwise), ...split];
+}
+
+/** A word as shells take it. */
+export const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
+/** A command that can be pasted into a shell. */
+export const commandOf = (words) => ["delone", ...words.map(quoted)].join(" ");
