@@ -12,15 +12,20 @@ export class Coverage {
     this.covered = new Uint8Array(width * height);
   }
 
-  /** A line of one pixel's width between places in pixels, whose centers are at halves. */
-  line(x0, y0, x1, y1) {
+  /** A line of one pixel's width between places in pixels, whose centers are at halves. Shorter ones than a pixel add up to a tone. */
+  line(ax, ay, bx, by) {
     const {width, height} = this;
-    [x0, y0, x1, y1] = [x0 - 0.5, y0 - 0.5, x1 - 0.5, y1 - 0.5];
-    if (Math.abs(y1 - y0) <= Math.abs(x1 - x0)) {
-      if (x0 < x1) this.#cover(x0, y0, x1, y1, width, height, 1, width);
-      else this.#cover(x1, y1, x0, y0, width, height, 1, width);
-    } else if (y0 < y1) this.#cover(y0, x0, y1, x1, height, width, width, 1);
-    else this.#cover(y1, x1, y0, x0, height, width, width, 1);
+    const [dx, dy] = [Math.abs(bx - ax), Math.abs(by - ay)];
+    if (dx + dy < 1) {
+      const [x, y] = [(ax + bx) / 2, (ay + by) / 2];
+      if (!(x >= 0 && y >= 0 && x < width && y < height)) return;
+      const at = Math.floor(y) * width + Math.floor(x);
+      this.covered[at] = Math.min(this.covered[at] + 255 * (dx + dy), 255);
+    } else if (dy <= dx) {
+      if (ax < bx) this.#cover(ax - 0.5, ay - 0.5, bx - 0.5, by - 0.5, width, height, 1, width);
+      else this.#cover(bx - 0.5, by - 0.5, ax - 0.5, ay - 0.5, width, height, 1, width);
+    } else if (ay < by) this.#cover(ay - 0.5, ax - 0.5, by - 0.5, bx - 0.5, height, width, width, 1);
+    else this.#cover(by - 0.5, bx - 0.5, ay - 0.5, ax - 0.5, height, width, width, 1);
   }
 
   /**

@@ -1,4 +1,4 @@
-// The figures: each alone, so that one that fails says so and leaves the others alive.
+// The figures: each begins when it comes near, and alone, so that one that fails says so and leaves the others alive.
 
 import {circle} from "./figures/circle.js";
 import {location} from "./figures/location.js";
@@ -12,8 +12,8 @@ import {walls} from "./figures/walls.js";
 
 const figures = {play, circle, one, voronoi, location, steps, walls, surface, race};
 
-for (const [name, begin] of Object.entries(figures)) {
-  const section = document.getElementById(name);
+/** Begins a figure. */
+function open(section, begin) {
   const status = section.querySelector("figcaption");
   const tell = (text, isError = false) => {
     status.textContent = text;
@@ -24,5 +24,18 @@ for (const [name, begin] of Object.entries(figures)) {
   } catch (error) {
     tell(`This figure does not work here: ${error.message}`, true);
   }
+  section.dataset.ready = "true";
 }
-document.documentElement.dataset.ready = "true";
+
+// One after the other as they come near, so that none holds up the page for long.
+const near = new IntersectionObserver(
+  (entries) => {
+    for (const {isIntersecting, target} of entries) {
+      if (!isIntersecting) continue;
+      near.unobserve(target);
+      setTimeout(() => open(target, figures[target.id]));
+    }
+  },
+  {rootMargin: "300px"},
+);
+for (const name of Object.keys(figures)) near.observe(document.getElementById(name));

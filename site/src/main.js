@@ -1,4 +1,4 @@
-// The page: the workbench at once, the figures below it when they come near or there is nothing else to do.
+// The page: the workbench at once, the figures below it when they come near.
 
 import {load} from "./load.js";
 import {workbench} from "./workbench/bench.js";
@@ -22,7 +22,6 @@ const near = new IntersectionObserver(
     near.disconnect();
     figures();
   },
-  {rootMargin: "600px"},
+  {rootMargin: "300px"},
 );
 near.observe(document.getElementById("play"));
-addEventListener("load", () => (globalThis.requestIdleCallback ?? setTimeout)(figures));

@@ -29,6 +29,8 @@ export function workbench(section) {
   let busySince = 0;
   let isAgain = false;
   let clock;
+  /** Files of equal names may be others. */
+  let turn = 0;
 
   const panels = new Panels(section, {formats, change, save, example: () => loaded});
   const past = new Past((other) => {
@@ -104,16 +106,16 @@ export function workbench(section) {
     await show();
   }
 
-  async function forget() {
+  function forget() {
     loaded = undefined;
-    await stage.clear();
+    stage.clear();
     say("");
   }
 
   /** Reads the source, and triangulates it. */
   async function open(key) {
     const start = performance.now();
-    await forget();
+    forget();
     say("Reading …");
     if (state.source.kind === "files" && !state.source.names.every((name) => Object.hasOwn(files, name))) {
       files = (await kept(state.source.names)) ?? files;
@@ -134,6 +136,8 @@ export function workbench(section) {
     const isGeographic = isDegrees(names[0], columns);
     const about = await stage.begin(made.written[`${STAGE}.ply`], isGeographic);
     loaded = {key: JSON.stringify([state.source, state.read]), names, blobs, stats, about, made: new Map(), notes: made.notes, generated, isGeographic};
+    // While the program works, points have no more to tell.
+    loaded.row = (i) => (busySince ? [] : engine.row(names[0], i).catch(() => []));
     loaded.columns = state.read.columns ? state.read.columns.split(",") : columns;
     loaded.isLines = Boolean(stats.segments);
     loaded.engine = made.ms;
@@ -264,7 +268,7 @@ export function workbench(section) {
     if (!given.length) return say("That was no file.", "error");
     files = Object.fromEntries(given.map((file) => [fileName(file.name), file]));
     keep(files);
-    return begin({kind: "files", names: Object.keys(files)});
+    return begin({kind: "files", names: Object.keys(files), turn: ++turn});
   }
 
   of("file").addEventListener("change", () => {

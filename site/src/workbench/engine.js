@@ -43,6 +43,11 @@ export class Engine {
     await this.#worker.run({task: "open", blobs});
   }
 
+  /** The columns of a point of a file, as pairs of names and words. */
+  async row(name, i) {
+    return (await this.#worker.run({task: "row", name, i})).cells;
+  }
+
   /** Runs a command. Gives what it wrote and told, or throws a `Failure`. */
   async run(args) {
     await this.prepare();

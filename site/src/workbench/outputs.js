@@ -50,7 +50,8 @@ function binaryPly(bytes, elements, end) {
       for (const {name, type} of properties) {
         const column = (columns[name] = new Float64Array(count));
         const read = readers[type];
-        if (read) for (let i = 0; i < count; i++) column[i] = view[read](at + i * size + offset, true);
+        if (type === "double") for (let i = 0; i < count; i++) column[i] = view.getFloat64(at + i * size + offset, true);
+        else if (read) for (let i = 0; i < count; i++) column[i] = view[read](at + i * size + offset, true);
         offset += SIZES[type];
       }
       at += size * count;

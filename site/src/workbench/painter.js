@@ -9,11 +9,15 @@ const scene = new Scene();
 /** Finds the nearest point; made when it is first asked for. */
 let finder;
 
+function forget() {
+  finder?.dispose();
+  finder = undefined;
+}
+
 const tasks = {
   /** Begins with a mesh of all points. */
   begin({bytes, isGeographic}) {
-    finder?.dispose();
-    finder = undefined;
+    forget();
     scene.begin(bytes ? ply(bytes) : {triangles: new Uint32Array(0)}, isGeographic);
     const {heights} = scene;
     return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, heights};
@@ -32,7 +36,12 @@ const tasks = {
     return {};
   },
 
-  complete: () => ({isOther: scene.complete()}),
+  complete() {
+    const isOther = scene.complete();
+    // The points may have other numbers now.
+    if (isOther) forget();
+    return {isOther};
+  },
 
   paint({width, height, view, look}) {
     const start = performance.now();
@@ -48,7 +57,10 @@ const tasks = {
     const {points} = scene;
     const isNear = i >= 0 && Math.hypot(points[2 * i] - x, points[2 * i + 1] - y) <= reach;
     const found = {};
-    if (isNear) found.point = {i, at: [points[2 * i], points[2 * i + 1]], place: [scene.x[i], scene.y[i]], height: scene.z?.[i]};
+    if (isNear) {
+      const name = scene.nameOf(scene, i);
+      found.point = {i: name, at: [points[2 * i], points[2 * i + 1]], place: [scene.x[name], scene.y[name]], height: scene.z?.[name]};
+    }
     const mesh = ["mesh", "triangles"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
     if (mesh) found.triangle = triangleAt(mesh, x, y);
     const areas = ["cells", "alpha"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
@@ -57,7 +69,8 @@ const tasks = {
   },
 };
 
-function triangleAt({points, triangles, z}, x, y) {
+function triangleAt(mesh, x, y) {
+  const {points, triangles} = mesh;
   const at = (i) => [points[2 * i], points[2 * i + 1]];
   const turn = ([ax, ay], [bx, by]) => (bx - ax) * (y - ay) - (by - ay) * (x - ax);
   for (let t = 0; t < triangles.length; t += 3) {
@@ -65,8 +78,7 @@ function triangleAt({points, triangles, z}, x, y) {
     if ((ax < x && bx < x && cx < x) || (ax > x && bx > x && cx > x)) continue;
     const corners = [at(triangles[t]), at(triangles[t + 1]), at(triangles[t + 2])];
     if (turn(corners[0], corners[1]) < 0 || turn(corners[1], corners[2]) < 0 || turn(corners[2], corners[0]) < 0) continue;
-    const indices = Array.from(triangles.subarray(t, t + 3));
-    return {number: t / 3, indices, corners, heights: z && indices.map((i) => z[i])};
+    return {number: t / 3, indices: Array.from(triangles.subarray(t, t + 3), (k) => scene.nameOf(mesh, k)), corners};
   }
   return undefined;
 }

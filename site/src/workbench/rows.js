@@ -32,18 +32,22 @@ export function preview(text) {
 }
 
 /** Something that tells the columns of a point by its number: pairs of names and words. Nothing where that is not known. */
-export async function teller(name, blob) {
-  if (blob.size > LARGEST) return () => [];
+export function teller(name, bytes) {
+  const nothing = () => [];
+  if (!bytes || bytes.length > LARGEST) return nothing;
+  const text = () => new TextDecoder().decode(bytes);
   if (isText(name)) {
-    const all = lines(await blob.text());
+    const all = lines(text());
     const {names, rows} = preview(all.slice(0, 2).join("\n"));
-    const skipped = all.length > 1 && rows.length < 2 && names.some((name, k) => name !== String(k + 1)) ? 1 : 0;
+    const skipped = all.length > 1 && rows.length < 2 ? 1 : 0;
     return (i) => (all[i + skipped] ? split(all[i + skipped]).map((cell, k) => [names[k] ?? String(k + 1), cell]) : []);
   }
-  if (/\.(geo)?json$/i.test(name)) {
-    const {features = []} = JSON.parse(await blob.text());
-    if (!features.every(({geometry}) => geometry?.type === "Point")) return () => [];
+  if (!/\.(geo)?json$/i.test(name)) return nothing;
+  try {
+    const {features = []} = JSON.parse(text());
+    if (!features.every(({geometry}) => geometry?.type === "Point")) return nothing;
     return (i) => Object.entries(features[i]?.properties ?? {}).map(([key, value]) => [key, String(value)]);
+  } catch {
+    return nothing;
   }
-  return () => [];
 }

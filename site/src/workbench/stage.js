@@ -14,7 +14,8 @@ export class WorkStage {
   #worker = background(source);
   #picture = document.createElement("canvas");
   #shownView;
-  #isPainting = false;
+  /** The picture that is being made, as it was asked for. */
+  #painting;
   #isDirty = false;
   #frame = 0;
   #look;
@@ -48,11 +49,13 @@ export class WorkStage {
   }
 
   /** Empties the stage. */
-  async clear() {
+  clear() {
     this.#worker.giveUp();
-    [this.#isPainting, this.#shownView, this.#marks, this.#look] = [false, undefined, undefined, undefined];
+    [this.#painting, this.#shownView, this.#marks, this.#look] = [];
     this.#picture.width = 0;
     this.invalidate();
+    // The next painter begins while the program works.
+    this.drop("").catch(() => undefined);
   }
 
   /** Takes the mesh of all points. Gives what the painter tells of it. */
@@ -84,25 +87,26 @@ export class WorkStage {
     if (isOther) await this.#paint();
   }
 
+  /** Asks for a picture; the promise is of the first one. While one is made, others are not. */
   async #paint() {
-    if (!this.#look || this.#isPainting) {
-      this.#isDirty = true;
-      return;
-    }
-    this.#isPainting = true;
-    this.#isDirty = false;
+    if (!this.#look) return;
     const {x, y, zoom} = this.view;
     const {width, height} = this.canvas;
+    const asked = {task: "paint", width, height, view: {x, y, zoom: zoom * this.ratio}, look: this.#look};
+    if (this.#painting) {
+      this.#isDirty = JSON.stringify(asked) !== JSON.stringify(this.#painting);
+      return;
+    }
+    [this.#painting, this.#isDirty] = [asked, false];
     try {
-      const made = await this.#worker.run({task: "paint", width, height, view: {x, y, zoom: zoom * this.ratio}, look: this.#look});
-      this.#take(made);
+      this.#take(await this.#worker.run(asked));
     } catch (error) {
       if (error.message !== "cancelled") throw error;
       return;
     } finally {
-      this.#isPainting = false;
+      this.#painting = undefined;
     }
-    if (this.#isDirty) await this.#paint();
+    if (this.#isDirty) this.#paint().catch(() => undefined);
   }
 
   #take({bytes, width, height, view, ms}) {

@@ -1,7 +1,5 @@
 // What is below the pointer, in words: beside it while it moves, below the stage once something is chosen.
 
-import {teller} from "./rows.js";
-
 const short = (number) => String(Number(number.toPrecision(10)));
 
 function angles(corners) {
@@ -25,10 +23,7 @@ export async function tellOf(section, loaded, found, pixel, isChosen) {
   if (found?.point) {
     const {i, place, height} = found.point;
     lines.push(`point ${i}: ${place.map(short).join(", ")}${height === undefined ? "" : `, height ${short(height)}`}`);
-    if (loaded?.names.length === 1) {
-      loaded.teller ??= teller(loaded.names[0], loaded.blobs[loaded.names[0]]).catch(() => () => []);
-      for (const [name, cell] of (await loaded.teller)(i)) lines.push(`${name}: ${cell}`);
-    }
+    if (loaded?.names.length === 1) for (const [name, cell] of await loaded.row(i)) lines.push(`${name}: ${cell}`);
   } else if (found?.triangle) {
     const {number, indices, corners} = found.triangle;
     lines.push(`triangle ${number}: ${indices.join(", ")}`, `least angle ${angles(corners).toFixed(1)}°, area ${short(areaOf(corners, loaded.about.frame))}`);

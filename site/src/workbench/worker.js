@@ -2,6 +2,7 @@
 
 import {answer} from "../answer.js";
 import {run} from "./program.js";
+import {teller} from "./rows.js";
 
 let module;
 let files = {};
@@ -12,6 +13,9 @@ async function inflated(base64) {
   return new Response(stream).arrayBuffer();
 }
 
+/** Tells the columns of a point of a file; made when it is first asked. */
+let telling = {};
+
 answer({
   /** Takes the program: a module, or deflated, in base64. Gives the module, if it can be given. */
   async prepare({module: made, base64}) {
@@ -21,9 +25,15 @@ answer({
 
   /** Takes files in place of those before: blobs by name. */
   async open({blobs}) {
-    files = {};
+    [files, telling] = [{}, {}];
     for (const [name, blob] of Object.entries(blobs)) files[name] = new Uint8Array(await blob.arrayBuffer());
     return {};
+  },
+
+  /** The columns of a point, as pairs. */
+  row({name, i}) {
+    telling[name] ??= teller(name, files[name]);
+    return {cells: telling[name](i)};
   },
 
   async run({args}) {
