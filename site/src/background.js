@@ -1,7 +1,10 @@
 // Workers, as promises. Each figure has one of its own, so that none waits for the work of another or ends it.
 
-/** A worker of a script's text, made when it is first needed, and made anew when a task is given up. */
-export function background(source) {
+/**
+ * A worker of a script's text, made when it is first needed, and made anew when a task is given up. `lost` is called when what the worker knew
+ * is gone.
+ */
+export function background(source, lost = () => undefined) {
   let worker;
   let next = 0;
   const tasks = new Map();
@@ -35,6 +38,7 @@ export function background(source) {
   function giveUp(reason = "cancelled") {
     worker?.terminate();
     worker = undefined;
+    lost();
     for (const {reject} of tasks.values()) reject(new Error(reason));
     tasks.clear();
   }

@@ -8,7 +8,7 @@ import {blobsOf, fileName, inputsOf, nameOfText, samples} from "./sources.js";
 import {WorkStage} from "./stage.js";
 import {Past, empty, fromHash} from "./state.js";
 import {tellOf} from "./tell.js";
-import {views, wordsOf} from "./views.js";
+import {reading, views, wordsOf} from "./views.js";
 
 /** Files that the stage reads, which no file of the visitor is called. */
 const STAGE = ".stage";
@@ -101,8 +101,7 @@ export function workbench(section) {
   async function round() {
     of("help").textContent = "";
     if (state.source.kind === "none") return forget();
-    const key = JSON.stringify([state.source, state.read]);
-    if (loaded?.key !== key) await open(key);
+    if (loaded?.key !== JSON.stringify([state.source, state.read])) await open(state);
     await show();
   }
 
@@ -113,32 +112,34 @@ export function workbench(section) {
   }
 
   /** Reads the source, and triangulates it. */
-  async function open(key) {
+  async function open({source, read}) {
     const start = performance.now();
     forget();
     say("Reading …");
-    if (state.source.kind === "files" && !state.source.names.every((name) => Object.hasOwn(files, name))) {
-      files = (await kept(state.source.names)) ?? files;
+    if (source.kind === "files" && !source.names.every((name) => Object.hasOwn(files, name))) {
+      files = (await kept(source.names)) ?? files;
     }
     let generated;
-    const blobs = await blobsOf(state.source, files, async (words) => {
+    const blobs = await blobsOf(source, files, async (words) => {
       generated = words;
       await engine.open({});
       return (await engine.run(words)).written[words.at(-1)];
     });
     const names = inputsOf(Object.keys(blobs), formats.inputs);
     await engine.open(blobs);
-    await panels.preview(names[0], blobs[names[0]]);
+    const headings = await panels.preview(names[0], blobs[names[0]]);
     say(`${names.join(", ")}: triangulating …`);
-    const made = await split(() => engine.run([...wordsOf("triangles", {}, names, state.read), "-o", `${STAGE}.ply`, "--stats", STATS]));
+    const made = await split(read, () => engine.run([...wordsOf("triangles", {}, names, read), "-o", `${STAGE}.ply`, "--stats", STATS]));
     const stats = JSON.parse(new TextDecoder().decode(made.written[STATS]));
     const columns = made.notes.map((note) => /columns (.*) were taken as x, y/.exec(note)?.[1]).find(Boolean)?.split(", ") ?? [];
     const isGeographic = isDegrees(names[0], columns);
+    if (!stats.points) throw new Error(`${names.join(", ")}: there are no points in it`);
     const about = await stage.begin(made.written[`${STAGE}.ply`], isGeographic);
-    loaded = {key: JSON.stringify([state.source, state.read]), names, blobs, stats, about, made: new Map(), notes: made.notes, generated, isGeographic};
+    loaded = {key: JSON.stringify([source, read]), names, blobs, stats, about, made: new Map(), notes: made.notes, told: made.errors.find((line) => /^\d/.test(line)) ?? "", generated, isGeographic};
     // While the program works, points have no more to tell.
     loaded.row = (i) => (busySince ? [] : engine.row(names[0], i).catch(() => []));
-    loaded.columns = state.read.columns ? state.read.columns.split(",") : columns;
+    const byName = ["x", "y", "z"].filter((role) => headings.includes(role));
+    loaded.columns = read.columns ? read.columns.split(",") : columns.length ? columns : byName;
     loaded.isLines = Boolean(stats.segments);
     loaded.engine = made.ms;
     loaded.begun = start;
@@ -146,13 +147,13 @@ export function workbench(section) {
   }
 
   /** Runs a command again with lines split where they cross, if that is what it failed for. */
-  async function split(act) {
+  async function split(read, act) {
     try {
       return await act();
     } catch (error) {
-      if (state.read.crossings || !/cross/.test(error.message)) throw error;
-      state.read.crossings = "split";
-      past.replace(state);
+      if (read.crossings || !/cross/.test(error.message)) throw error;
+      read.crossings = "split";
+      if (read === state.read) past.replace(state);
       return act();
     }
   }
@@ -170,17 +171,16 @@ export function workbench(section) {
         if (made.delete(name)) await stage.drop(name);
         continue;
       }
-      prepare(name, about);
-      const words = wordsOf(name, state.views[name], names, state.read);
-      const key = words.join("\n");
-      if (made.get(name)?.key === key) continue;
-      say(`${views[name].title} …`);
       try {
+        prepare(name, about);
+        const words = wordsOf(name, state.views[name], names, state.read);
+        const key = words.join("\n");
+        if (made.get(name)?.key === key) continue;
+        say(`${views[name].title} …`);
         const {format, isFilled} = views[name];
-        const result = await split(() => engine.run([...words, "-o", `${STAGE}.${format}`, "--stats", STATS]));
-        await stage.layer({name, format, isFilled, bytes: result.written[`${STAGE}.${format}`]});
-        const stats = result.written[STATS] && JSON.parse(new TextDecoder().decode(result.written[STATS]));
-        made.set(name, {key, stats, errors: result.errors, ms: result.ms});
+        const result = await split(state.read, () => engine.run([...wordsOf(name, state.views[name], names, state.read), "-o", `${STAGE}.${format}`, "--stats", STATS]));
+        const {count} = await stage.layer({name, format, isFilled, bytes: result.written[`${STAGE}.${format}`]});
+        made.set(name, {key, count, told: result.errors.find((line) => /^\d/.test(line)) ?? ""});
       } catch (error) {
         if (["superseded", "cancelled"].includes(error.message)) throw error;
         made.delete(name);
@@ -216,12 +216,21 @@ export function workbench(section) {
     past.replace(state);
   }
 
+  /** The parts of a line that the program told, without the time. */
+  const parts = (told) => told.replace(/ \([\d.]+ s\)/, "").split(", ").filter(Boolean);
+
   function tellAll(faults) {
     const {about, names, notes, made} = loaded;
     const points = `${names.join(", ")}: ${count(about.points)} ${about.points === 1 ? "point" : "points"}`;
     const triangles = about.triangles ? `${count(about.triangles)} triangles` : about.points < 3 ? "which are too few for a triangle" : "no triangle: they are on a line, or nothing is inside";
-    const others = [...made].map(([name, {errors}]) => `${views[name].title}: ${errors.find((line) => /^\d/.test(line))?.replace(/ \([\d.]+ s\)/, "") ?? "done"}`);
-    say([`${points}, ${triangles}, ${(loaded.engine / 1000).toFixed(2)} s`, ...others].join(". "));
+    const known = new Set(parts(loaded.told));
+    const others = [...made].map(([name, {told, count: lines}]) => {
+      const more = parts(told).filter((part) => !known.has(part));
+      if (name === "contours") more.push(`${count(lines)} lines`);
+      if (name === "alpha") more.push(`${count(lines)} borders`);
+      return more.length ? `${views[name].title}: ${more.join(", ")}` : "";
+    });
+    say([`${points}, ${triangles}, ${(loaded.engine / 1000).toFixed(2)} s`, ...others].filter(Boolean).join(". "));
     if (faults.length) {
       say(faults.map(([name, {message}]) => `${views[name].title}: ${message}.`).join(" "), "error");
       of("help").textContent = faults.map(([, {help}]) => help).filter(Boolean).join(" ");
@@ -231,7 +240,7 @@ export function workbench(section) {
   /** What `delone info` tells of the files. */
   async function facts() {
     try {
-      const {prints} = await engine.run(["info", ...loaded.names, ...wordsOf("triangles", {}, [], state.read).slice(1).filter((word, k, all) => word !== "--crossings" && all[k - 1] !== "--crossings")]);
+      const {prints} = await engine.run(["info", ...loaded.names, ...reading(state.read)]);
       return prints.join("\n");
     } catch (error) {
       return error.message;
@@ -307,7 +316,7 @@ export function workbench(section) {
   }
   of("set-take").addEventListener("click", () => {
     const [name, number, seed] = ["set", "count", "seed"].map((key) => of(key).value.trim());
-    begin({kind: "set", name, count: number || "1000", seed: seed || "0"}, {views: state.views, fill: state.fill});
+    begin({kind: "set", name, count: number || "1000", seed: seed || "0"}, {views: Object.fromEntries(Object.keys(state.views).filter((name) => !views[name].heights).map((name) => [name, {}]))});
   });
   of("undo").addEventListener("click", () => history.back());
   of("redo").addEventListener("click", () => history.forward());

@@ -14,7 +14,7 @@ export class Failure extends Error {
 }
 
 export class Engine {
-  #worker = background(source);
+  #worker = background(source, () => (this.#ready = undefined));
   #module;
   #ready;
   #blobs;
@@ -61,6 +61,5 @@ export class Engine {
   /** Ends whatever runs; the next command begins anew. */
   giveUp(reason) {
     this.#worker.giveUp(reason);
-    this.#ready = undefined;
   }
 }

@@ -20,7 +20,7 @@ const tasks = {
     forget();
     scene.begin(bytes ? ply(bytes) : {triangles: new Uint32Array(0)}, isGeographic);
     const {heights} = scene;
-    return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, heights};
+    return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, box: scene.box, heights};
   },
 
   /** Takes the output of a view. */
@@ -28,7 +28,8 @@ const tasks = {
     if (format === "ply") scene.addMesh(name, ply(bytes));
     else if (format === "npy") scene.addIndices(name, npy(bytes), name === "hull");
     else scene.addPaths(name, (format === "wkb" ? wkb : geojson)(bytes), isFilled);
-    return {};
+    const {ends, pairs, triangles} = scene.get(name);
+    return {count: ends?.length ?? triangles?.length / 3 ?? pairs.length / 2};
   },
 
   drop({name}) {

@@ -30,13 +30,13 @@ export class Panels {
     const of = this.#of;
     of("views").append(...Object.entries(views).map(([name, view]) => this.#row(name, view)));
     of("set").append(...actions.formats.sets.map((name) => make("option", {textContent: name})));
-    for (const [key, id] of [["fill", "fill"]]) of(id).addEventListener("change", () => actions.change((state) => (state[key] = of(id).value)));
+    of("fill").addEventListener("change", () => actions.change((state) => (state.fill = of("fill").value)));
     of("dots").addEventListener("change", () => actions.change((state) => (state.dots = of("dots").checked)));
     of("save-view").addEventListener("change", () => this.#formats());
     of("save").addEventListener("click", () => actions.save(of("save-view").value, of("save-format").value));
     of("read").addEventListener("change", () => this.#read());
     of("copy").addEventListener("click", () => this.#copy());
-    for (const tab of of("tabs").querySelectorAll("button")) {
+    for (const tab of of("tabs").querySelectorAll("[data-tab]")) {
       tab.addEventListener("click", () => {
         this.#tab = tab.dataset.tab;
         this.#code();
@@ -134,14 +134,14 @@ export class Panels {
     of("classes").value = this.#state.read.classes;
   }
 
-  /** Columns to choose from, and the first rows. */
+  /** Columns to choose from, and the first rows. Gives the names of columns. */
   async preview(name, blob) {
     const of = this.#of;
     of("classes").replaceChildren();
     of("columns").replaceChildren();
     of("rows").replaceChildren();
     of("columns-all").hidden = !isText(name ?? "");
-    if (!blob || !isText(name)) return;
+    if (!blob || !isText(name)) return [];
     const {names, rows} = preview((await blob.slice(0, HEAD).text()).replace(/[^\n]*$/, (rest) => (blob.size > HEAD ? "" : rest)));
     const taken = this.#state.read.columns.split(",");
     const choices = () => [make("option", {value: "", textContent: "by name"}), ...names.map((name, k) => make("option", {value: name, textContent: name === String(k + 1) ? `column ${name}` : name}))];
@@ -154,6 +154,7 @@ export class Panels {
     );
     const row = (cells, kind) => make("tr", {}, ...cells.map((cell) => make(kind, {textContent: cell})));
     of("rows").append(make("thead", {}, row(names, "th")), make("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
+    return names;
   }
 
   /** What was chosen about reading. Columns count when there are two. */
@@ -174,7 +175,7 @@ export class Panels {
 
   #code() {
     const of = this.#of;
-    for (const tab of of("tabs").querySelectorAll("button")) tab.setAttribute("aria-pressed", String(tab.dataset.tab === this.#tab));
+    for (const tab of of("tabs").querySelectorAll("[data-tab]")) tab.setAttribute("aria-pressed", String(tab.dataset.tab === this.#tab));
     const {loaded} = this.#context;
     of("code").textContent = loaded ? snippets(this.#state, loaded)[this.#tab].join("\n") : "";
   }

@@ -80,6 +80,8 @@ export class Scene {
     this.#layers.clear();
     [this.names, this.places] = [undefined, undefined];
     this.frame = frameOf(x, y, isGeographic);
+    const [[x0, x1], [y0, y1]] = [range(x), range(y)];
+    this.box = [x0, y0, x1, y1];
     const heights = range(z ?? []);
     // Points of the plane come with heights of zero.
     this.heights = heights[0] < heights[1] ? heights : undefined;

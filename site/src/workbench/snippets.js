@@ -46,20 +46,25 @@ const python = {
 };
 
 const javascript = {
-  triangles: () => ["const {triangles} = Delaunay.from(points);"],
+  triangles: () => ["const {triangles} = d;"],
   cells: ({clip}) =>
-    clip === "hull"
-      ? ["const d = Delaunay.from(points);", "const cells = d.voronoi(bounds).clip([d.hullPolygon()]);"]
-      : ["const cells = Delaunay.from(points).voronoi(bounds).cellPolygons();"],
-  hull: () => ["const {hull} = Delaunay.from(points);"],
-  contours: ({interval}) => ["const d = Delaunay.from(points);", `const lines = contours(d, heights, levels); // multiples of ${interval}`],
+    clip === "hull" ? ["const cells = d.voronoi(bounds).clip([d.hullPolygon()]);"] : ["const cells = [...d.voronoi(bounds).cellPolygons()];"],
+  hull: () => ["const {hull} = d;"],
+  contours: () => ["const lines = contours(d, heights, levels);"],
 };
+
+/** Levels of contours between heights, as the program takes them. */
+function levelsOf(interval, [low, high]) {
+  const first = Math.ceil(low / interval);
+  const last = Math.floor(high / interval);
+  return last - first < 40 ? `[${Array.from({length: Math.max(last - first + 1, 0)}, (_, k) => Number(((first + k) * interval).toPrecision(12))).join(", ")}]` : `... // multiples of ${interval}`;
+}
 
 /**
  * Commands, Python and JavaScript for the views that are shown: lines of text. `about` has the names of the files, what reading them needs, the
  * columns that were taken, and whether they hold lines.
  */
-export function snippets(state, {names, columns, isLines, generated}) {
+export function snippets(state, {names, columns, isLines, generated, about}) {
   const shown = Object.keys(state.views);
   const outputs = {ply: "ply", wkb: "geojson", npy: "csv", geojson: "geojson"};
   const commands = shown.map((name) => {
@@ -69,15 +74,22 @@ export function snippets(state, {names, columns, isLines, generated}) {
   const make = generated ? [`delone ${generated.map(quoted).join(" ")}`] : [];
   const optionsOf = (name) => ({...Object.fromEntries(views[name].options.map(({key, value}) => [key, value])), ...state.views[name]});
   const read = names.length === 1 ? pythonReading(names[0], columns, isLines, state.read.classes) : ["points = ...  # an array of shape (n, 2)"];
-  const hasJavascript = shown.filter((name) => javascript[name]);
+  const known = shown.filter((name) => javascript[name]);
   const others = shown.filter((name) => !javascript[name]).map((name) => `// ${views[name].title}: by the program or Python.`);
-  const full = hasJavascript.some((name) => name === "contours" || (name === "cells" && state.views.cells.clip === "hull"));
+  const isFull = known.includes("contours") || (known.includes("cells") && optionsOf("cells").clip === "hull");
+  const given = ["const points = [[0, 0], [1, 0], [0, 1]]; // yours"];
+  if (known.includes("cells")) given.push(`const bounds = [${about.box.join(", ")}];`);
+  if (known.includes("contours") && about.heights) {
+    given.push("const heights = [0, 1, 2]; // yours, one a point", `const levels = ${levelsOf(Number(optionsOf("contours").interval), about.heights)};`);
+  }
   return {
     Command: [...make, ...commands],
     Python: ["import numpy as np", "import delone", ...read, ...shown.flatMap((name) => python[name](optionsOf(name), isLines))],
     JavaScript: [
-      `import {${full && shown.includes("contours") ? "Delaunay, contours" : "Delaunay"}} from "delone${full ? "/full" : ""}";`,
-      ...hasJavascript.flatMap((name) => javascript[name](optionsOf(name))),
+      `import {${known.includes("contours") ? "Delaunay, contours" : "Delaunay"}} from "delone${isFull ? "/full" : ""}";`,
+      ...given,
+      "const d = Delaunay.from(points);",
+      ...known.flatMap((name) => javascript[name](optionsOf(name))),
       ...others,
     ],
   };

@@ -21,8 +21,6 @@ export class WorkStage {
   #look;
   #asked = 0;
   #marks;
-  /** Milliseconds that the last picture took the painter. */
-  ms = 0;
 
   /** `tell` hears what is below the pointer or was chosen: `(found, pixel, isChosen)`. */
   constructor(canvas, tell) {
@@ -113,7 +111,9 @@ export class WorkStage {
     [this.#picture.width, this.#picture.height] = [width, height];
     this.#picture.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
     this.#shownView = view;
-    this.ms = ms;
+    // For whoever measures: pictures so far, and how long the painter took for the last one.
+    const {dataset} = this.canvas.closest("section");
+    [dataset.pictures, dataset.painted] = [Number(dataset.pictures ?? 0) + 1, ms.toFixed(1)];
     this.#draw();
   }
 

@@ -34,7 +34,8 @@ export const views = {
   alpha: {
     title: "Alpha shape",
     command: "alpha",
-    format: "wkb",
+    // Its borders; well-known binary has triangles.
+    format: "geojson",
     isFilled: true,
     style: {color: "chosen", wide: 1.5, alpha: 1},
     options: [number("radius", "radius", "--radius", {slider: true})],
