@@ -1,5 +1,6 @@
 // The figures: each begins when it comes near, and alone, so that one that fails says so and leaves the others alive.
 
+import {copy} from "./copy.js";
 import {circle} from "./figures/circle.js";
 import {location} from "./figures/location.js";
 import {one} from "./figures/one.js";
@@ -38,4 +39,10 @@ const near = new IntersectionObserver(
   },
   {rootMargin: "300px"},
 );
+for (const block of document.querySelectorAll(".code")) {
+  const button = Object.assign(document.createElement("button"), {textContent: "Copy"});
+  const told = Object.assign(document.createElement("span"), {role: "status"});
+  button.addEventListener("click", () => copy(block.querySelector("code"), told));
+  block.append(button, " ", told);
+}
 for (const name of Object.keys(figures)) near.observe(document.getElementById(name));

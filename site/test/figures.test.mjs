@@ -188,6 +188,8 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
 test("lines that cross are refused alone, and stay split until they are undone", async (t) => {
   const page = await open(t);
   const picture = async () => {
+    // Without the cursor of the keyboard.
+    await page.evaluate(() => document.activeElement?.blur());
     await drawn(page, "walls");
     return page.locator("#walls canvas").evaluate((canvas) => canvas.toDataURL());
   };
@@ -305,4 +307,82 @@ test("narrow, dark and calm", async (t) => {
   assert.match(await status(page, "play"), /^[4-7] points/);
   await page.setViewportSize({width: 900, height: 700});
   for (const count of await drawn(page, "play")) assert.ok(count > 2000);
+});
+
+test("numbers in the text change figures by dragging and by keys", async (t) => {
+  const page = await open(t);
+  const number = page.locator("#circle .number");
+  await number.scrollIntoViewIfNeeded();
+  const of = async () => Number(/of (\d+):/.exec(await status(page, "circle"))[1]);
+  const before = await of();
+  await number.focus();
+  await page.keyboard.press("PageUp");
+  assert.equal(await number.textContent(), "50");
+  assert.equal((await of()) - before, 20 - ((await number.getAttribute("aria-valuenow")) - 50));
+  const box = await number.boundingBox();
+  await page.mouse.move(box.x + 5, box.y + 5);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 405, box.y + 5, {steps: 3});
+  await page.mouse.up();
+  assert.equal(await number.textContent(), "150");
+});
+
+test("all figures can be used by touch, and by keys", async (t) => {
+  const page = await open(t, {viewport: {width: 390, height: 844}, hasTouch: true, reducedMotion: "reduce"});
+  const changes = async (section, act) => {
+    const before = await status(page, section);
+    await act();
+    await page.waitForFunction(([section, before]) => document.querySelector(`#${section} figcaption`).textContent !== before, [section, before]);
+  };
+  const tap = (section, x, y) => page.locator(`#${section} canvas`).first().tap({position: {x, y}});
+  await changes("circle", () => tap("circle", 120, 90));
+  await changes("location", () => tap("location", 60, 50).then(() => page.locator("#location canvas").first().press("Enter")).then(() => tap("location", 1, 1)));
+  await tap("surface", 100, 80);
+  for (const button of ["raise", "lower"]) await changes("surface", () => page.tap(`#surface-${button}`));
+  // On a telephone most places between sixty points take a new one.
+  await page.selectOption("#play-kind", "grid");
+  await page.locator("#play canvas").scrollIntoViewIfNeeded();
+  for (let k = 0; k < 24; k++) await tap("play", 15 + ((k * 83) % 320), 12 + ((k * 47) % 170));
+  const inserted = Number(/^(\d+) points/.exec(await status(page, "play"))[1]) - 60;
+  assert.ok(inserted >= 14, `${inserted} of 24 taps insert`);
+  // A line that is begun and left, and a polygon by keys.
+  const walls = page.locator("#walls canvas");
+  await walls.focus();
+  for (const [key, pattern] of [["ArrowRight", /^Point \d+\. Enter begins/], ["Enter", /^A line begins at point \d+/], ["Escape", /^No line was drawn/]]) {
+    await page.keyboard.press(key);
+    assert.match(await status(page, "walls"), pattern);
+  }
+  await page.click("#voronoi-clip");
+  await page.locator("#voronoi canvas").focus();
+  for (const key of ["Enter", "ArrowRight", "ArrowRight", "Enter", "ArrowDown", "ArrowDown", "Enter"]) await page.keyboard.press(key);
+  await page.click("#voronoi-clip");
+  assert.match(await status(page, "voronoi"), /^Cells are cut by your polygon of 3 corners/);
+});
+
+test("more points than are changed one by one in motion are changed at rest, and cells are drawn or said not to be", async (t) => {
+  const page = await open(t);
+  await still(page);
+  await page.selectOption("#play-count", "20000");
+  const box = await page.locator("#play canvas").boundingBox();
+  await page.locator("#play canvas").scrollIntoViewIfNeeded();
+  await page.locator("#play canvas").click({position: {x: box.width - 3, y: 3}});
+  assert.match(await status(page, "play"), /^20,001 points/);
+  await page.locator("#play-delaunay").uncheck();
+  await page.locator("#play-hull").uncheck();
+  await page.check("#play-voronoi");
+  assert.match(await status(page, "play"), /Voronoi cells are drawn at rest, of at most 20,000 points/);
+  await page.selectOption("#play-count", "1000");
+  const [count] = await drawn(page, "play");
+  assert.ok(count > 5000, `${count} pixels`);
+});
+
+test("the points of the workbench are compared, and code is copied", async (t) => {
+  const page = await open(t, {hash: "#set=tenth-grid&n=400&seed=1&views=triangles"});
+  await page.waitForSelector("#one-yours:enabled");
+  assert.match(await status(page, "one"), /^Delone: 0 wrong edges\. delaunator: [1-9]\d* wrong edges/);
+  await page.click("#one-yours");
+  assert.match(await status(page, "one"), /^Delone: 0 wrong edges\. delaunator: \d+ wrong edges/);
+  await page.click("#one .code summary");
+  await page.click("#one .code button");
+  await page.waitForFunction(() => document.querySelector("#one .code [role=status]").textContent === "Copied.");
 });

@@ -1,6 +1,7 @@
 // A triangle and its circle, which holds no other point.
 
 import {Delaunay} from "delone/full";
+import {draggable} from "../numbers.js";
 import {scatter} from "../random.js";
 import {Stage, dots, edges, strokePath} from "../stage.js";
 
@@ -21,10 +22,16 @@ export function circle(section, tell) {
     strokePath(context, new Path2D(d.renderTriangle(chosen)), color.chosen, {width: 3, scale});
     dots(context, coords, color.ink, 4 / scale);
   });
-  const coords = scatter(40, stage.height, 5, 60);
-  const d = new Delaunay(coords);
-  const centers = d.voronoi().circumcenters;
-  const count = d.triangles.length / 3;
+  let [coords, d, centers, count] = [];
+
+  function take(points) {
+    d?.dispose();
+    coords = scatter(points, stage.height, 5, 60);
+    d = new Delaunay(coords);
+    centers = d.voronoi().circumcenters;
+    count = d.triangles.length / 3;
+    choose(count >> 1);
+  }
 
   function choose(t) {
     chosen = (t + count) % count;
@@ -35,15 +42,17 @@ export function circle(section, tell) {
     tell(`Triangle ${chosen + 1} of ${count}: inside of its circle there are ${inside || "no"} other points.`);
     stage.invalidate();
   }
-  canvas.addEventListener("pointermove", (event) => {
+  const point = (event) => {
     const found = d.locate(...stage.at(event));
     if (found.triangle >= 0 && found.triangle !== chosen) choose(found.triangle);
-  });
+  };
+  for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, point);
   canvas.addEventListener("keydown", (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
     if (!step) return;
     choose(chosen + step);
     event.preventDefault();
   });
-  choose(20);
+  draggable(section.querySelector(".number"), "points", take);
+  take(40);
 }

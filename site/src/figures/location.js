@@ -1,14 +1,14 @@
 // Four strategies look for the same point, step by step.
 
 import {Delaunay} from "delone/full";
+import {draggable} from "../numbers.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, edges, prefersCalm, ring, strokePath} from "../stage.js";
 
 export function location(section, tell) {
   const canvases = [...section.querySelectorAll("canvas")];
   const height = WIDTH * 0.5625;
-  const coords = scatter(400, height, 21, 10);
-  const d = new Delaunay(coords);
+  let [coords, d, all] = [];
   let serial = 1;
   let target;
   let paths = [];
@@ -44,7 +44,13 @@ export function location(section, tell) {
         strokePath(context, cross, color.ink, {width: 3, scale});
       }),
   );
-  const all = edges(d, coords);
+  function take(count) {
+    d?.dispose();
+    coords = scatter(count, height, 21, 10);
+    d = new Delaunay(coords);
+    all = edges(d, coords);
+    another();
+  }
 
   function tick() {
     shown = Math.floor((performance.now() - begun) / 120) + 1;
@@ -69,7 +75,11 @@ export function location(section, tell) {
     const next = random(++serial);
     ask([40 + next() * (WIDTH - 80), 40 + next() * (height - 80)]);
   };
-  canvases.forEach((canvas, k) => canvas.addEventListener("pointerdown", (event) => ask(stages[k].at(event))));
+  canvases.forEach((canvas, k) => {
+    canvas.addEventListener("pointerdown", (event) => ask(stages[k].at(event)));
+    canvas.addEventListener("keydown", ({key}) => key === "Enter" && another());
+  });
   section.querySelector("#location-again").addEventListener("click", another);
-  another();
+  draggable(section.querySelector(".number"), "points", take);
+  take(400);
 }

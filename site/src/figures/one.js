@@ -1,22 +1,28 @@
-// A lattice by us and by delaunator, in any order, turned by any angle. What is wrong is found with integers of any length.
+// A lattice, or the points of the workbench, by us and by delaunator, in any order. What is wrong is found with integers of any length.
 
 import {Delaunator} from "delone/full";
+import {fit} from "../fit.js";
 import {load} from "../load.js";
 import {random, shuffle} from "../random.js";
 import {Stage, WIDTH, dots, strokePath} from "../stage.js";
 
 const SIDE = 10;
 
-/** A float as an integer, times a power of two that is the same for all: exact for coordinates of a page. */
-function whole(x) {
-  const view = new DataView(new ArrayBuffer(8));
-  view.setFloat64(0, x);
-  const bits = view.getBigUint64(0);
-  const exponent = (bits >> 52n) & 2047n;
-  // Below 2^-123 there are no pixels.
-  if (exponent < 900n) return 0n;
-  const mantissa = ((bits & ((1n << 52n) - 1n)) | (1n << 52n)) << (exponent - 900n);
-  return x < 0 ? -mantissa : mantissa;
+/** Sets of more points take too long to judge. */
+const JUDGED = 5000;
+
+/** Floats as integers times one power of two: exact. */
+function whole(coords) {
+  const bits = new BigUint64Array(Float64Array.from(coords).buffer);
+  const exponents = Array.from(bits, (word) => Number((word >> 52n) & 2047n));
+  const least = exponents.reduce((low, exponent, i) => (coords[i] ? Math.min(low, exponent) : low), 2047);
+  return Array.from(bits, (word, i) => {
+    if (!coords[i]) return 0n;
+    const fraction = word & ((1n << 52n) - 1n);
+    // The least floats have no leading bit, and the exponent of those above them.
+    const mantissa = exponents[i] ? (fraction | (1n << 52n)) << BigInt(exponents[i] - Math.max(least, 1)) : fraction;
+    return coords[i] < 0 ? -mantissa : mantissa;
+  });
 }
 
 /** The sign of the in-circle determinant of exact points, positive for d inside of the circle of a counter-clockwise triangle. */
@@ -31,7 +37,8 @@ function inCircle(a, b, c, d) {
 
 /** Edges whose other point is inside of the circle: half-edge numbers. */
 function wrong({triangles, halfedges}, coords) {
-  const exact = Array.from({length: coords.length / 2}, (_, i) => [whole(coords[2 * i]), whole(coords[2 * i + 1])]);
+  const all = whole(coords);
+  const exact = Array.from({length: coords.length / 2}, (_, i) => [all[2 * i], all[2 * i + 1]]);
   const found = [];
   for (let e = 0; e < triangles.length; e++) {
     const twin = halfedges[e];
@@ -47,6 +54,8 @@ function wrong({triangles, halfedges}, coords) {
 export function one(section, tell) {
   const [mine, other] = section.querySelectorAll("canvas");
   const turn = section.querySelector("#one-turn");
+  const yours = section.querySelector("#one-yours");
+  const bench = document.getElementById("bench");
   let order = Array.from({length: SIDE * SIDE}, (_, i) => i);
   let serial = 1;
   let results = [];
@@ -68,12 +77,12 @@ export function one(section, tell) {
         }
         function line(path, e) {
           const [a, b] = [triangles[e] * 2, triangles[e % 3 === 2 ? e - 2 : e + 1] * 2];
-          path.moveTo(result.coords[a], result.coords[a + 1]);
-          path.lineTo(result.coords[b], result.coords[b + 1]);
+          path.moveTo(result.places[a], result.places[a + 1]);
+          path.lineTo(result.places[b], result.places[b + 1]);
         }
         strokePath(context, good, color.delaunay, {width: 1.5, scale});
         strokePath(context, bad, color.voronoi, {width: 3, dash: [6, 4], scale});
-        dots(context, result.coords, color.ink, 2.5 / scale);
+        if (result.places.length < 2000) dots(context, result.places, color.ink, 2.5 / scale);
       }),
   );
 
@@ -91,13 +100,18 @@ export function one(section, tell) {
     );
   }
 
+  /** The points of the workbench in an order. */
+  const taken = () => Float64Array.from(order.flatMap((i) => [bench.points[2 * i], bench.points[2 * i + 1]]));
+  const isYours = () => yours.getAttribute("aria-pressed") === "true";
+
   function make() {
-    const coords = lattice();
+    const coords = isYours() ? taken() : lattice();
+    const places = isYours() ? fit(coords, WIDTH, stages[0].height, 25) : coords;
     const Rival = globalThis.Rival?.Delaunator;
     results = [Delaunator, Rival].map((Way) => {
       if (!Way) return undefined;
       const made = new Way(coords);
-      return {made, coords, wrong: wrong(made, coords)};
+      return {made, places, wrong: wrong(made, coords)};
     });
     section.querySelector("#one-angle").textContent = `${turn.value}°`;
     const count = (result) => (result ? `${result.wrong.length} wrong edges` : "not loaded");
@@ -109,6 +123,19 @@ export function one(section, tell) {
     make();
   });
   turn.addEventListener("input", make);
+  function choose(is) {
+    yours.setAttribute("aria-pressed", String(is));
+    turn.disabled = is;
+    order = Array.from({length: is ? bench.points.length / 2 : SIDE * SIDE}, (_, i) => i);
+    make();
+  }
+  yours.addEventListener("click", () => choose(!isYours()));
+  const offer = () => {
+    yours.disabled = !(bench.points?.length <= 2 * JUDGED);
+    if (isYours()) choose(!yours.disabled);
+  };
+  bench.addEventListener("points", offer);
+  offer();
   make();
   // The other library when somebody comes near.
   new IntersectionObserver(([entry], observer) => {

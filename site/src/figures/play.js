@@ -7,8 +7,12 @@ import {edgePainter} from "../coverage.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
 
-/** Up to here points are changed one by one. */
-const SINGLE_CHANGES = 3000;
+/** Up to here points are changed one by one, at rest. */
+const SINGLE_CHANGES = 100_000;
+/** Up to here also in motion; more are triangulated anew for each picture. */
+const MOVING_CHANGES = 3000;
+/** Up to here cells are drawn. */
+const CELLS = 20_000;
 /** From here on edges are painted into the pixels, and points not at all. */
 const PAINTED_EDGES = 8000;
 /** From here on triangles are made off the page's thread. */
@@ -40,7 +44,7 @@ export function play(section, tell) {
       else strokePath(context, edges(made, coords), color.delaunay, {scale});
     }
     const isSmall = coords.length / 2 <= PAINTED_EDGES;
-    if (of("voronoi").checked && d) {
+    if (of("voronoi").checked && d && coords.length / 2 <= CELLS) {
       const path = new Path2D(d.voronoi([0, 0, WIDTH, stage.height]).render() ?? "");
       strokePath(context, path, color.voronoi, {dash: [6, 4], width: 1.5, scale});
     }
@@ -79,7 +83,8 @@ export function play(section, tell) {
       : count === 1 ? "1 point. One alone has no triangles."
       : triangles === 0 ? `${number(count)} points on a line, which have no triangles.`
       : `${number(count)} points, ${number(triangles)} triangles, ${ms.toFixed(ms < 10 ? 1 : 0)} ms${rate}.`;
-    tell(what + (coords.length / 2 > PAINTED_EDGES && triangles ? " So many points are not drawn, their edges are." : ""));
+    const cells = of("voronoi").checked && !(d && coords.length / 2 <= CELLS) ? ` Voronoi cells are drawn at rest, of at most ${number(CELLS)} points.` : "";
+    tell(what + cells + (coords.length / 2 > PAINTED_EDGES && triangles ? " So many points are not drawn, their edges are." : ""));
   }
 
   /** Triangulates all points anew. */
@@ -87,7 +92,7 @@ export function play(section, tell) {
     const start = performance.now();
     d?.dispose();
     d = undefined;
-    if (coords.length / 2 <= SINGLE_CHANGES) {
+    if (coords.length / 2 <= (stage.isMoving ? MOVING_CHANGES : SINGLE_CHANGES)) {
       d = new Delaunay(coords);
       made = d;
     } else {
@@ -182,7 +187,7 @@ export function play(section, tell) {
     make();
     frames.push(time);
     if (frames.length > 40) frames.shift();
-    if (count < SINGLE_CHANGES || frames.length % 10 === 0) say();
+    if (count < MOVING_CHANGES || frames.length % 10 === 0) say();
   }
 
   /** Forgets points that are gone. */
@@ -225,16 +230,19 @@ export function play(section, tell) {
       [coords[2 * i], coords[2 * i + 1]] = [x, y];
     });
 
-  const near = ([x, y], reach) => {
+  /** The point that is near a place, unless the way to the next one is short. */
+  const near = ([x, y]) => {
+    const spacing = Math.sqrt((WIDTH * stage.height) / (coords.length / 2 - gone.size + 1));
+    const reach = Math.min(stage.px(22), 0.3 * spacing);
     const i = d?.find(x, y) ?? -1;
     return i >= 0 && Math.hypot(coords[2 * i] - x, coords[2 * i + 1] - y) <= reach ? i : -1;
   };
 
   canvas.addEventListener("pointerdown", (event) => {
     if (stage.isMoving) of("motion").click();
-    if (!d) return;
+    if (!d) return tell("So many points are only looked at: choose fewer to change them.");
     const place = stage.at(event);
-    const i = near(place, stage.px(22));
+    const i = near(place);
     if (event.shiftKey) {
       if (i >= 0) remove(i);
       return;
@@ -285,9 +293,18 @@ export function play(section, tell) {
     of("motion").setAttribute("aria-pressed", String(isMoving));
     frames = [];
     stage.animate(isMoving ? tick : undefined);
+    if (!isMoving && !d) {
+      make();
+      say();
+    }
   });
   for (const name of ["count", "kind"]) of(name).addEventListener("change", begin);
-  for (const name of ["delaunay", "voronoi", "hull", "circles"]) of(name).addEventListener("change", () => stage.invalidate());
+  for (const name of ["delaunay", "voronoi", "hull", "circles"]) {
+    of(name).addEventListener("change", () => {
+      say();
+      stage.invalidate();
+    });
+  }
   begin();
   if (!prefersCalm() && Number(of("count").value) <= 100) of("motion").click();
 }

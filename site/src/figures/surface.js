@@ -1,6 +1,7 @@
 // Heights between points, by triangles or by natural neighbors, and their contours.
 
 import {Delaunay, contours, interpolate} from "delone/full";
+import {draggable} from "../numbers.js";
 import {scatter} from "../random.js";
 import {Stage, WIDTH, dots, strokePath} from "../stage.js";
 
@@ -11,9 +12,7 @@ export function surface(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#surface-${name}`);
   const height = WIDTH * 0.5625;
-  const coords = scatter(60, height, 33, 15);
-  const values = Float64Array.from({length: 60}, (_, i) => Math.cos(coords[2 * i] / 110) * Math.cos(coords[2 * i + 1] / 130));
-  const d = new Delaunay(coords);
+  let [coords, values, d] = [];
   const picture = document.createElement("canvas");
   [picture.width, picture.height] = [COLUMNS, ROWS];
   const places = new Float64Array(2 * COLUMNS * ROWS);
@@ -38,6 +37,19 @@ export function surface(section, tell) {
     if (chosen >= 0) dots(context, coords.subarray(2 * chosen, 2 * chosen + 2), color.chosen, 7 / scale);
   });
 
+  function take(count) {
+    d?.dispose();
+    coords = scatter(count, height, 33, 15);
+    values = Float64Array.from({length: count}, (_, i) => Math.cos(coords[2 * i] / 110) * Math.cos(coords[2 * i + 1] / 130));
+    d = new Delaunay(coords);
+    choose(-1);
+    make();
+  }
+  function choose(i) {
+    chosen = i;
+    for (const name of ["raise", "lower"]) of(name).disabled = i < 0;
+    stage.invalidate();
+  }
   function make() {
     const start = performance.now();
     const found = interpolate(d, values, places, {method: of("method").value});
@@ -61,8 +73,7 @@ export function surface(section, tell) {
   }
   const near = (event) => d.find(...stage.at(event));
   canvas.addEventListener("pointerdown", (event) => {
-    chosen = near(event);
-    stage.invalidate();
+    choose(near(event));
   });
   canvas.addEventListener(
     "wheel",
@@ -76,7 +87,7 @@ export function surface(section, tell) {
   );
   canvas.addEventListener("keydown", (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
-    if (step) chosen = (chosen + step + values.length) % values.length;
+    if (step) choose((chosen + step + values.length) % values.length);
     else if (event.key === "+" && chosen >= 0) raise(chosen, 0.1);
     else if (event.key === "-" && chosen >= 0) raise(chosen, -0.1);
     else return;
@@ -85,5 +96,8 @@ export function surface(section, tell) {
   });
   of("method").addEventListener("change", make);
   of("contours").addEventListener("change", () => stage.invalidate());
-  make();
+  of("raise").addEventListener("click", () => raise(chosen, 0.1));
+  of("lower").addEventListener("click", () => raise(chosen, -0.1));
+  draggable(section.querySelector(".number"), "points", take);
+  take(60);
 }

@@ -1,6 +1,7 @@
 // Triangles and cells, one fading into the other; relaxation; cells cut by a polygon; power cells of points with weights.
 
 import {Delaunay, Power} from "delone/full";
+import {draggable} from "../numbers.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, ring, strokePath} from "../stage.js";
 
@@ -12,6 +13,8 @@ export function voronoi(section, tell) {
   let polygon; // as it is drawn
   let weights; // squared radii
   let isDrawing = false;
+  /** Where the next corner comes by the keyboard. */
+  let cursor = Float64Array.of(WIDTH / 2, WIDTH / 4);
 
   const stage = new Stage(canvas, (context, color) => {
     const {scale} = stage;
@@ -33,6 +36,7 @@ export function voronoi(section, tell) {
     }
     context.globalAlpha = 1;
     if (polygon) ring(context, polygon, color.chosen, 2.5, scale);
+    if (isDrawing) dots(context, cursor, color.chosen, 6 / scale);
     dots(context, coords, color.ink, 3 / scale);
   });
 
@@ -65,11 +69,13 @@ export function voronoi(section, tell) {
     isDrawing = is;
     of("clip").setAttribute("aria-pressed", String(is));
   }
-  const begin = () => {
+  let points = 120;
+  const begin = (count = points) => {
+    points = count;
     [polygon, weights] = [undefined, undefined];
     setDrawing(false);
     of("weights").value = 0;
-    take(scatter(120, stage.height, 11, 10));
+    take(scatter(points, stage.height, 11, 10));
   };
   of("fade").addEventListener("input", () => stage.invalidate());
   of("weights").addEventListener("input", () => {
@@ -80,16 +86,16 @@ export function voronoi(section, tell) {
     else take(coords);
   });
   of("relax").addEventListener("click", () => take(d.voronoi([0, 0, WIDTH, stage.height]).relax()));
-  of("reset").addEventListener("click", begin);
+  of("reset").addEventListener("click", () => begin());
   of("clip").addEventListener("click", () => {
     setDrawing(!isDrawing);
     if (isDrawing) {
       polygon = [];
-      tell("Tap the corners of a polygon, then press the button again.");
+      tell("Tap the corners of a polygon, or move by arrows and press Enter for each; then press the button again.");
     } else if (polygon.length < 3) {
       polygon = undefined;
       tell("A polygon needs three corners.", true);
-    }
+    } else tell(`Cells are cut by your polygon of ${polygon.length} corners.`);
     stage.invalidate();
   });
   canvas.addEventListener("pointerdown", (event) => {
@@ -97,5 +103,19 @@ export function voronoi(section, tell) {
     polygon.push(stage.at(event));
     stage.invalidate();
   });
+  canvas.addEventListener("keydown", (event) => {
+    if (!isDrawing) return;
+    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+    if (step) cursor = Float64Array.of(cursor[0] + 20 * step[0], cursor[1] + 20 * step[1]);
+    else if (event.key === "Enter") polygon.push([...cursor]);
+    else if (event.key === "Escape") {
+      polygon = undefined;
+      setDrawing(false);
+      tell("No polygon was drawn.");
+    } else return;
+    event.preventDefault();
+    stage.invalidate();
+  });
+  draggable(section.querySelector(".number"), "points", (count) => begin(count));
   begin();
 }

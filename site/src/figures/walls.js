@@ -9,6 +9,7 @@ export function walls(section, tell) {
   const of = (name) => section.querySelector(`#walls-${name}`);
   let walls = [];
   let from = -1;
+  let cursor = 0;
   let to;
   let made;
   const stage = new Stage(canvas, (context, color) => {
@@ -38,6 +39,7 @@ export function walls(section, tell) {
       strokePath(context, line, color.chosen, {width: 3, dash: [8, 5], scale});
     }
     dots(context, points, color.ink, 4 / scale);
+    if (document.activeElement === canvas) dots(context, coords.subarray(2 * cursor, 2 * cursor + 2), color.chosen, 8 / scale);
   });
   const coords = scatter(60, stage.height, 14, 30);
 
@@ -80,8 +82,8 @@ export function walls(section, tell) {
     stage.invalidate();
   });
   canvas.addEventListener("pointerup", (event) => end(nearest(stage.at(event))));
-  // With the keyboard: two keys choose the ends one after the other.
-  let cursor = 0;
+  for (const kind of ["focus", "blur"]) canvas.addEventListener(kind, () => stage.invalidate());
+  // With the keyboard the ends are chosen one after the other.
   canvas.addEventListener("keydown", (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
     if (step) {
@@ -89,8 +91,13 @@ export function walls(section, tell) {
       to = [coords[2 * cursor], coords[2 * cursor + 1]];
       tell(`Point ${cursor}. Enter ${from < 0 ? "begins" : "ends"} a line here.`);
     } else if (event.key === "Enter") {
-      if (from < 0) from = cursor;
-      else end(cursor);
+      if (from < 0) {
+        from = cursor;
+        tell(`A line begins at point ${cursor}. Arrows choose its end, Enter draws it, Escape leaves it.`);
+      } else end(cursor);
+    } else if (event.key === "Escape" && from >= 0) {
+      [from, to] = [-1, undefined];
+      tell("No line was drawn.");
     } else return;
     stage.invalidate();
     event.preventDefault();

@@ -15,6 +15,8 @@ const STAGE = ".stage";
 const STATS = ".stats.json";
 /** Milliseconds after which work is given up for other work instead of awaited. */
 const PATIENCE = 400;
+/** So many points are given to the figures below. */
+const SHARED = 5000;
 const count = (number) => number.toLocaleString("en");
 
 export function workbench(section) {
@@ -106,6 +108,7 @@ export function workbench(section) {
   }
 
   function forget() {
+    section.points = undefined;
     loaded = undefined;
     stage.clear();
     say("");
@@ -201,6 +204,11 @@ export function workbench(section) {
       loaded.begun = 0;
     }
     tellAll(faults);
+    if (!loaded.isShared) {
+      loaded.isShared = true;
+      section.points = about.points <= SHARED ? await stage.points() : undefined;
+      section.dispatchEvent(new Event("points"));
+    }
     await stage.complete();
     loaded.facts ??= await facts();
   }

@@ -32,6 +32,9 @@ const tasks = {
     return {count: ends?.length ?? triangles?.length / 3 ?? pairs.length / 2};
   },
 
+  /** The coordinates of few points, as they came. */
+  points: () => ({coords: Float64Array.from(scene.points, (_, k) => (k % 2 ? scene.y : scene.x)[k >> 1])}),
+
   drop({name}) {
     scene.drop(name);
     return {};

@@ -1,5 +1,6 @@
 // The controls of the workbench beside the stage: views and their options, how files are read, results to save, code to copy.
 
+import {copy} from "../copy.js";
 import {isText, preview} from "./rows.js";
 import {snippets} from "./snippets.js";
 import {views} from "./views.js";
@@ -35,7 +36,7 @@ export class Panels {
     of("save-view").addEventListener("change", () => this.#formats());
     of("save").addEventListener("click", () => actions.save(of("save-view").value, of("save-format").value));
     of("read").addEventListener("change", () => this.#read());
-    of("copy").addEventListener("click", () => this.#copy());
+    of("copy").addEventListener("click", () => copy(of("code"), of("copied")));
     for (const tab of of("tabs").querySelectorAll("[data-tab]")) {
       tab.addEventListener("click", () => {
         this.#tab = tab.dataset.tab;
@@ -178,20 +179,5 @@ export class Panels {
     for (const tab of of("tabs").querySelectorAll("[data-tab]")) tab.setAttribute("aria-pressed", String(tab.dataset.tab === this.#tab));
     const {loaded} = this.#context;
     of("code").textContent = loaded ? snippets(this.#state, loaded)[this.#tab].join("\n") : "";
-  }
-
-  async #copy() {
-    const of = this.#of;
-    const {textContent} = of("code");
-    try {
-      await navigator.clipboard.writeText(textContent);
-    } catch {
-      // Without leave, or on a page from a disk: the old way.
-      getSelection().selectAllChildren(of("code"));
-      document.execCommand("copy");
-      getSelection().removeAllRanges();
-    }
-    of("copied").textContent = "Copied.";
-    setTimeout(() => (of("copied").textContent = ""), 2000);
   }
 }

@@ -68,6 +68,10 @@ export class WorkStage {
     return this.#worker.run({task: "layer", ...message}, [message.bytes.buffer]);
   }
 
+  async points() {
+    return (await this.#worker.run({task: "points"})).coords;
+  }
+
   drop(name) {
     return this.#worker.run({task: "drop", name});
   }
