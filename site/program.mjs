@@ -11,8 +11,8 @@ const root = fileURLToPath(new URL("..", import.meta.url));
 const target = "wasm32-wasip1";
 /** Commands whose outputs the page offers. */
 const commands = ["triangulate", "voronoi", "hull", "alpha", "contours", "mesh", "graph"];
-/** Files beside the first: the page has one for each. */
-const beside = ["v.node", "v.edge"];
+/** Of a format's second files there is no choice, and a page has no SQLite. */
+const others = ["v.node", "v.edge", "gpkg"];
 
 /** The program, as bytes. */
 export async function program() {
@@ -41,9 +41,9 @@ export async function table(bytes) {
   for (const command of commands) {
     const [, list] = /Output file \((.*?)\)/.exec(await told(command, "--help"));
     const inPlane = list.replace(/^in the plane /, "").replace(/; in space.*/, "").replace(/; in the plane also/, "");
-    outputs[command] = inPlane.split(" ").filter((format) => !beside.includes(format));
+    outputs[command] = inPlane.split(" ").filter((format) => !others.includes(format));
   }
   const {prints} = await run(module, ["generate", "list"], {});
   const [plane] = prints.join("\n").split("\n\n");
-  return {inputs: inputs.split(" "), outputs, sets: plane.split("\n").map((line) => line.split(" ")[0])};
+  return {inputs: inputs.split(" ").filter((format) => !others.includes(format)), outputs, sets: plane.split("\n").map((line) => line.split(" ")[0])};
 }

@@ -142,6 +142,7 @@ test("files that are wrong are said to be so, and nothing of the last one stays"
     ["cut.laz", readFileSync(data("autzen_trim.laz")).subarray(0, 30_000), /./],
     ["picture.png", "\u0089PNG\r\n", /png/],
     ["las.las", "LASF", /./],
+    ["layer.gpkg", "SQLite format 3\0", /gpkg/],
   ]) {
     assert.match(await give(page, {"good.csv": good}), /^good\.csv: 4 points, 2 triangles/);
     assert.equal(await state(page), "ready");
@@ -155,6 +156,9 @@ test("files that are wrong are said to be so, and nothing of the last one stays"
   assert.match(await give(page, {"a.csv": good, "b.csv": "5,5\n"}), /a\.csv, b\.csv: 5 points/);
   assert.match(await give(page, {"a b's.csv": "0,0\n1,1\n2,2\n"}), /3 points, no triangle: they are on a line/);
   assert.equal(await page.textContent("#bench-code"), "delone triangulate 'a b'\\''s.csv' -o triangles.ply");
+  // A file that is called as what is saved.
+  assert.match(await give(page, {"triangles.geojson": '{"type":"MultiPoint","coordinates":[[0,0],[2,0],[1,1]]}'}), /3 points, 1 triangles/);
+  assert.equal((await save(page, "triangles", "geojson")).name, "triangles-new.geojson");
   assert.match(await give(page, {"one.csv": "3,4\n"}), /1 point, which are too few/);
 });
 

@@ -8,7 +8,7 @@ import {blobsOf, fileName, inputsOf, nameOfText, samples} from "./sources.js";
 import {WorkStage} from "./stage.js";
 import {Past, empty, fromHash} from "./state.js";
 import {tellOf} from "./tell.js";
-import {reading, views, wordsOf} from "./views.js";
+import {outputOf, reading, views, wordsOf} from "./views.js";
 
 /** Files that the stage reads, which no file of the visitor is called. */
 const STAGE = ".stage";
@@ -96,7 +96,8 @@ export function workbench(section) {
 
   function fail(error) {
     say(`${error.message}.`.replace(/\.\.$/, "."), "error");
-    of("help").textContent = error.help ?? "";
+    const isLacking = /built without/.test(error.message);
+    of("help").textContent = isLacking ? "The page has no SQLite: save the layer as GeoJSON or FlatGeobuf, or use the program on your machine." : (error.help ?? "");
     panels.offer(error);
   }
 
@@ -261,7 +262,7 @@ export function workbench(section) {
     busy(true);
     say(`${views[name].title} as ${format} …`);
     try {
-      const base = `${name}.${format}`;
+      const base = outputOf(name, format, Object.keys(loaded.blobs));
       const {written, errors} = await engine.run([...wordsOf(name, state.views[name] ?? {}, loaded.names, state.read), "-o", base]);
       for (const [file, bytes] of Object.entries(written)) download(file, new Blob([bytes]));
       say([`Saved ${Object.keys(written).join(", ")}`, ...errors.filter((line) => line.startsWith("note: ")).map((line) => line.slice(6))].join(". "));

@@ -1,6 +1,6 @@
 // The lines of Python and JavaScript that make what is seen.
 
-import {quoted, reading, views, wordsOf} from "./views.js";
+import {outputOf, quoted, views, wordsOf} from "./views.js";
 
 const text = (word) => JSON.stringify(word);
 const extension = (name) => name.toLowerCase().replace(/\.gz$/, "").split(".").at(-1);
@@ -69,7 +69,7 @@ export function snippets(state, {names, columns, isLines, generated, about}) {
   const outputs = {ply: "ply", wkb: "geojson", npy: "csv", geojson: "geojson"};
   const commands = shown.map((name) => {
     const words = wordsOf(name, state.views[name], names, state.read);
-    return ["delone", ...words, "-o", `${name}.${outputs[views[name].format]}`].map(quoted).join(" ");
+    return ["delone", ...words, "-o", outputOf(name, outputs[views[name].format], names)].map(quoted).join(" ");
   });
   const make = generated ? [`delone ${generated.map(quoted).join(" ")}`] : [];
   const optionsOf = (name) => ({...Object.fromEntries(views[name].options.map(({key, value}) => [key, value])), ...state.views[name]});

@@ -86,8 +86,13 @@ export function wordsOf(name, given, names, read) {
   return [command, ...names, ...reading(read), ...(set.length ? set : otherwise), ...split];
 }
 
+/** What a saved view is called: a name that no file of the visitor has. */
+export function outputOf(name, format, names) {
+  let base = name;
+  while (names.includes(`${base}.${format}`)) base += "-new";
+  return `${base}.${format}`;
+}
+
 /** A word as shells take it. */
 export const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
 
-/** A command that can be pasted into a shell. */
-export const commandOf = (words) => ["delone", ...words.map(quoted)].join(" ");
