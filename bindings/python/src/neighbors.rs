@@ -1,5 +1,6 @@
 //! A tree of points that is asked for those near others.
 
+use delone_predicates::hypotenuse;
 use std::sync::{Arc, OnceLock};
 
 use delone::{Coordinates, Error, Neighbors2, Neighbors3};
@@ -112,7 +113,7 @@ impl Neighbors {
         let points = Arc::clone(self.points.get_or_init(|| points.into()));
         let distance = move |i: usize, q: &[f64]| {
             let p = &points[i * columns..][..columns];
-            p.iter().zip(q).map(|(p, q)| p - q).fold(0.0, f64::hypot)
+            p.iter().zip(q).map(|(p, q)| p - q).fold(0.0, hypotenuse)
         };
         let make = move |all: Vec<Vec<(f64, i64)>>| {
             for found in all {

@@ -2,6 +2,7 @@
 
 use delone::{Constrained2, Coordinates, Dimension, Error};
 use delone_io::{Cloud, Graph, LAS_CLASSES, LasFlag};
+use delone_predicates::hypotenuse;
 use serde_json::{Map, Value};
 
 use crate::args::{GraphArgs, InfoArgs};
@@ -170,7 +171,7 @@ fn ties<R: Room>(d: &R) -> usize {
 fn lengths<R: Room>(d: &R) -> Vec<f64> {
     let length = |[v, w]: [delone::VertexId; 2]| {
         let [p, q] = [v, w].map(|v| d.position(v).unwrap_or_default());
-        p.as_ref().iter().zip(q.as_ref()).map(|(x, y)| x - y).fold(0.0, f64::hypot)
+        p.as_ref().iter().zip(q.as_ref()).map(|(x, y)| x - y).fold(0.0, hypotenuse)
     };
     d.edges().map(length).collect()
 }

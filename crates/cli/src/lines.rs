@@ -1,5 +1,6 @@
 //! `delone voronoi --of lines|areas`: the places nearest to each line or area.
 
+use delone_predicates::hypotenuse;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -114,7 +115,7 @@ pub(crate) fn tell_left(graph: &Graph, quiet: bool) {
 /// The tolerance for points, if none is given.
 pub(crate) fn tolerance_of(points: &[[f64; 2]]) -> f64 {
     let [width, height] = Bounds::of(points.iter().copied()).extent();
-    PART_OF_DIAGONAL * width.hypot(height)
+    PART_OF_DIAGONAL * hypotenuse(width, height)
 }
 
 /// Lines by number, in the order of the input.

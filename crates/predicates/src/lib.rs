@@ -38,6 +38,7 @@ mod distance;
 mod exact;
 mod filter;
 mod fixed_point;
+mod hypotenuse;
 mod in_box;
 mod in_circle;
 mod in_sphere;
@@ -75,6 +76,7 @@ pub use distance::{
 };
 pub use filter::{Filter, Filter3, Grid};
 pub use fixed_point::{FixedPoint, SeenCorner};
+pub use hypotenuse::hypotenuse;
 pub use in_box::SiteRef;
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};

@@ -141,7 +141,7 @@ pub(crate) fn round(size: f64) -> f64 {
     if !(size > 0.0 && size.is_finite()) {
         return 1.0;
     }
-    let power = 10f64.powf(size.log10().floor());
+    let power = libm::pow(10.0, libm::log10(size).floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|k| k * power).find(|&x| x >= size).unwrap_or(size)
 }
 

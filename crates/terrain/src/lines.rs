@@ -1,5 +1,6 @@
 //! Breaklines and level polygons, which are given heights where they have none.
 
+use delone_predicates::hypotenuse;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -212,7 +213,7 @@ impl Lines {
 fn between(p: [f64; 2], q: [f64; 2], longest: f64) -> Vec<[f64; 2]> {
     /// The largest number of pieces of a segment: more would mean lines of another scale than the raster.
     const MAX_PIECES: f64 = 100_000.0;
-    let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MAX_PIECES) as usize;
+    let pieces = (hypotenuse(p[0] - q[0], p[1] - q[1]) / longest).ceil().min(MAX_PIECES) as usize;
     let (low, high) = if p <= q { (p, q) } else { (q, p) };
     let place = |k: usize| [0, 1].map(|axis| low[axis] + k as f64 / pieces as f64 * (high[axis] - low[axis]));
     let mut places: Vec<[f64; 2]> = (1..pieces).map(place).collect();

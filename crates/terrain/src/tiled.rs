@@ -8,6 +8,7 @@
 //!
 //! Memory: some 600 bytes for each point of a band.
 
+use delone_predicates::hypotenuse;
 use std::ops::Range;
 
 use delone::surface::{Grid, Interpolator, Raster};
@@ -156,7 +157,7 @@ fn values(held: &Held, method: Method, max_edge: Option<f64>, grid: &Grid) -> Re
 fn exceeds(corners: [[f64; 2]; 3], longest: f64) -> bool {
     (0..3).any(|k| {
         let (p, q) = (corners[k], corners[(k + 1) % 3]);
-        (p[0] - q[0]).hypot(p[1] - q[1]) > longest
+        hypotenuse(p[0] - q[0], p[1] - q[1]) > longest
     })
 }
 
@@ -248,7 +249,8 @@ impl Part {
             if method == Method::Nearest && around.is_at_hull() {
                 // All points of the part's range are there, so what is nearer is too.
                 let nearest = self.d.nearest(q)?.map(|v| self.d.point(v));
-                let far = nearest.map_or(f64::INFINITY, |p| (p[0] - q[0]).hypot(p[1] - q[1]) * (1.0 + 1e-9));
+                let far =
+                    nearest.map_or(f64::INFINITY, |p| hypotenuse(p[0] - q[0], p[1] - q[1]) * (1.0 + 1e-9));
                 is_known = q[1] - far >= self.range[0] && q[1] + far <= self.range[1];
             }
             if is_known {

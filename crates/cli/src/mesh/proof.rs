@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use delone::{Constrained2, Refined2, Seeds2, TriangleId};
-use delone_predicates::orient2d;
+use delone_predicates::{hypotenuse, orient2d};
 
 use super::plan::Plan;
 
@@ -59,9 +59,9 @@ fn angle([p, q, r]: [[f64; 2]; 3]) -> f64 {
     let (u, v) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
     let (cross, dot) = (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
     let is_normal = cross.is_finite() && dot.is_finite() && cross.abs().max(dot.abs()) > 1e-290;
-    if is_normal { cross.atan2(dot) } else { std::f64::consts::FRAC_PI_2 }
+    if is_normal { libm::atan2(cross, dot) } else { std::f64::consts::FRAC_PI_2 }
 }
 
 fn length([p, q]: [[f64; 2]; 2]) -> f64 {
-    (q[0] - p[0]).hypot(q[1] - p[1])
+    hypotenuse(q[0] - p[0], q[1] - p[1])
 }

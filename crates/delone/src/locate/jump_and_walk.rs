@@ -79,7 +79,7 @@ impl JumpAndWalk {
 
     /// The number of vertices to draw out of `n`.
     pub(crate) fn sample_size(&self, n: usize, dimensions: usize) -> usize {
-        let size = (self.rho * (n as f64).powf(1.0 / (dimensions + 1) as f64)).ceil();
+        let size = (self.rho * libm::pow(n as f64, 1.0 / (dimensions + 1) as f64)).ceil();
         self.sample.unwrap_or(size as usize).clamp(1, n.max(1))
     }
 

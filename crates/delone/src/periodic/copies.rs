@@ -85,7 +85,7 @@ impl<const D: usize> Copies<D> {
 pub(super) fn first_halo<const D: usize>(lattice: &Prepared<D>, places: &[[f64; D]]) -> f64 {
     /// The largest empty ball of n random sites grows as the cubic root of the logarithm of n; this factor is found by trial.
     const SPACINGS: f64 = 1.12;
-    let spacings = SPACINGS * f64::from(usize::BITS - places.len().leading_zeros()).cbrt();
+    let spacings = SPACINGS * libm::cbrt(f64::from(usize::BITS - places.len().leading_zeros()));
     // Along axes that do not repeat the sites have an extent of their own.
     let mut extents = Bounds::of(places.iter().copied()).extent();
     extents.sort_unstable_by(|a, b| b.total_cmp(a));
@@ -95,7 +95,7 @@ pub(super) fn first_halo<const D: usize>(lattice: &Prepared<D>, places: &[[f64; 
     while let Some((&least, wider)) = widths.split_last() {
         let volume: f64 = widths.iter().map(|width| width / least).product();
         // In units of the least width.
-        let spacing = (volume / places.len() as f64).powf(1.0 / widths.len() as f64);
+        let spacing = libm::pow(volume / places.len() as f64, 1.0 / widths.len() as f64);
         if spacing <= 1.0 || wider.is_empty() {
             return spacings * spacing * least;
         }

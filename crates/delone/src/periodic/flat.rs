@@ -8,6 +8,7 @@ use super::cells::{Beyond, Faces};
 use super::walls::{Region, Walls};
 use crate::ids::VertexId;
 use crate::plane::{Cells2, Region2};
+use delone_predicates::hypotenuse;
 
 /// Cells of sites, as sides.
 #[derive(Clone, Debug)]
@@ -96,12 +97,12 @@ impl Faces<2> for FlatCells {
 
     fn face_size(&self, side: &FlatSide) -> f64 {
         let [x, y] = self.along(side);
-        x.hypot(y)
+        hypotenuse(x, y)
     }
 
     fn normal(&self, side: &FlatSide) -> Option<[f64; 2]> {
         let [x, y] = self.along(side);
-        let length = x.hypot(y);
+        let length = hypotenuse(x, y);
         // To the right: the cell is on the left.
         (length > 0.0).then(|| [y / length, 0.0 - x / length])
     }
@@ -111,5 +112,5 @@ impl Faces<2> for FlatCells {
 fn distance(p: &[f64; 2], line: &[[f64; 2]]) -> f64 {
     let [a, b] = [line[0], line[1]];
     let along = [b[0] - a[0], b[1] - a[1]];
-    (along[0] * (p[1] - a[1]) - along[1] * (p[0] - a[0])).abs() / along[0].hypot(along[1])
+    (along[0] * (p[1] - a[1]) - along[1] * (p[0] - a[0])).abs() / hypotenuse(along[0], along[1])
 }

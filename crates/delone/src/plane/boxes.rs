@@ -2,6 +2,8 @@
 //!
 //! Cost: O(n log n) to build, O(log n) for each box that is asked for and each that is found, if few overlap.
 
+use delone_predicates::hypotenuse;
+
 /// The least and greatest coordinates.
 pub(in crate::plane) type Span = [[f64; 2]; 2];
 
@@ -72,7 +74,7 @@ impl Boxes {
     pub(in crate::plane) fn each_within(&self, at: [f64; 2], radius: f64, mut each: impl FnMut(usize)) {
         let is_within = |span: &Span| {
             let [x, y] = [0, 1].map(|k| (span[0][k] - at[k]).max(at[k] - span[1][k]).max(0.0));
-            x <= radius && y <= radius && (x + y <= radius || x.hypot(y) <= radius)
+            x <= radius && y <= radius && (x + y <= radius || hypotenuse(x, y) <= radius)
         };
         self.each_of(&is_within, (0, 0, self.spans.len()), &mut each);
     }

@@ -19,7 +19,9 @@
 
 use std::ops::Range;
 
-use delone_predicates::{Sign, angle, center_side, circumcenter, compare_distances, lexicographic};
+use delone_predicates::{
+    Sign, angle, center_side, circumcenter, compare_distances, hypotenuse, lexicographic,
+};
 
 use super::layer::Layer;
 use super::layer::insert::Spot;
@@ -312,7 +314,7 @@ impl Furthest2 {
             let half = [0, 1].map(|axis| q[axis] / 2.0 - p[axis] / 2.0);
             let center = [0, 1].map(|axis| p[axis] / 2.0 + q[axis] / 2.0);
             let support = vec![self.corners[i], self.corners[j]];
-            EnclosingCircle { center, radius: half[0].hypot(half[1]), support }
+            EnclosingCircle { center, radius: hypotenuse(half[0], half[1]), support }
         };
         match points.len() {
             0 => return None,
@@ -348,7 +350,7 @@ impl Furthest2 {
         let places = mesh.places(t).map(Place::index);
         let [a, b, c] = places.map(|i| points[i]);
         let center = circumcenter(a, b, c)?;
-        let radius = (a[0] - center[0]).hypot(a[1] - center[1]);
+        let radius = hypotenuse(a[0] - center[0], a[1] - center[1]);
         Some(EnclosingCircle { center, radius, support: places.map(|i| self.corners[i]).to_vec() })
     }
 }

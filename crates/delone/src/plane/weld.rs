@@ -16,7 +16,9 @@
 //!
 //! Cost: a triangulation, which tells the points that have neighbors within the tolerance, and O(n log n + k) typical for n points and k pairs of a vertex and a box around a segment.
 
-use delone_predicates::{compare_distances, compare_lengths, compare_segment_with_radius, lexicographic};
+use delone_predicates::{
+    compare_distances, compare_lengths, compare_segment_with_radius, hypotenuse, lexicographic,
+};
 
 use super::boxes::{Boxes, span};
 use crate::error::Error;
@@ -93,7 +95,7 @@ impl Weld2 {
         for (i, &to) in stays.iter().enumerate().filter(|&(i, &to)| points[i] != points[to]) {
             let [x, y] = [0, 1].map(|k| points[to][k] - points[i][k]);
             made.moved += 1;
-            made.largest_move = made.largest_move.max(x.hypot(y));
+            made.largest_move = made.largest_move.max(hypotenuse(x, y));
         }
         if segments.is_empty() {
             made.stays = stays;
@@ -140,7 +142,7 @@ fn with_neighbors(points: &[[f64; 2]], tolerance: f64) -> Result<Vec<usize>, Err
     for e in mesh.undirected_edges() {
         let ends = [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
         let [a, b] = ends.map(|i| points[i]);
-        if (b[0] - a[0]).hypot(b[1] - a[1]) <= tolerance * ROOM + f64::MIN_POSITIVE {
+        if hypotenuse(b[0] - a[0], b[1] - a[1]) <= tolerance * ROOM + f64::MIN_POSITIVE {
             ends.into_iter().for_each(|i| is_close[i] = true);
         }
     }

@@ -1,5 +1,6 @@
 //! Trimming: simplices that are left out of a triangulation where it is shown.
 
+use delone_predicates::hypotenuse;
 use std::collections::VecDeque;
 
 use crate::triangulation::{Coordinates, Triangulation};
@@ -178,7 +179,7 @@ fn slenderness<P: Coordinates>(points: &[P]) -> f64 {
 /// The distance of two points, rounded.
 fn distance<P: Coordinates>(p: P, q: P) -> f64 {
     let differences = p.as_ref().iter().zip(q.as_ref()).map(|(x, y)| x - y);
-    differences.fold(0.0, f64::hypot)
+    differences.fold(0.0, hypotenuse)
 }
 
 #[cfg(test)]

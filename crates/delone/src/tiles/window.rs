@@ -7,7 +7,7 @@
 //!
 //! Cost: O(k + h log h) for k open triangles and h points of the border.
 
-use delone_predicates::{circumcenter, orient2d};
+use delone_predicates::{circumcenter, hypotenuse, orient2d};
 
 use super::{Border, Region};
 use crate::hull::Hull2;
@@ -79,6 +79,6 @@ fn meets(corners: [[f64; 2]; 3], window: &Region) -> bool {
 /// The box of the circle of a triangle.
 fn around([a, b, c]: [[f64; 2]; 3]) -> Region {
     let Some(center) = circumcenter(a, b, c) else { return Region::ALL };
-    let radius = (center[0] - a[0]).hypot(center[1] - a[1]) * (1.0 + MARGIN);
+    let radius = hypotenuse(center[0] - a[0], center[1] - a[1]) * (1.0 + MARGIN);
     Region { low: center.map(|x| x - radius), high: center.map(|x| x + radius) }
 }

@@ -1,5 +1,6 @@
 //! Edges between points, with their lengths: as arrays of indices, text, and lines of GeoJSON.
 
+use delone_predicates::hypotenuse;
 use std::io::{self, Write};
 
 use delone::Coordinates;
@@ -25,7 +26,7 @@ impl<P: Coordinates> Edges<'_, P> {
     pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
         self.pairs.iter().map(|edge| {
             let [a, b] = edge.map(|i| self.points[i].as_ref());
-            a.iter().zip(b).map(|(x, y)| y - x).fold(0.0, f64::hypot)
+            a.iter().zip(b).map(|(x, y)| y - x).fold(0.0, hypotenuse)
         })
     }
 

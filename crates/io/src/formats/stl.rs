@@ -228,7 +228,7 @@ fn shift(shape: &impl Shape) -> Option<[f64; 3]> {
             return 0.0;
         }
         // Whole numbers, or decimals no coarser than the extent.
-        let scale = 10f64.powi((-extent.log10()).ceil().max(0.0) as i32);
+        let scale = 10f64.powi((-libm::log10(extent)).ceil().max(0.0) as i32);
         let floor = (low * scale).floor() / scale;
         if floor.is_finite() { floor } else { low }
     });

@@ -24,7 +24,7 @@ pub(super) fn candidates(points: &[[f64; 3]]) -> Option<Vec<u32>> {
         return None;
     }
     // Of a ball, a sample of m leaves 3 n / sqrt(m) points, and k cells along an axis leave 6 n / k.
-    let root = (points.len() as f64).cbrt();
+    let root = libm::cbrt(points.len() as f64);
     let cells = ((2.0 * root) as usize).min(MOST_CELLS);
     let most_looks = points.len() + 8 * cells * cells;
     let columns = Columns::inside(&hull(every(points, (root / 2.0) as usize))?, cells, most_looks)?;

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use delone_predicates::lexicographic;
+use delone_predicates::{hypotenuse, lexicographic};
 
 use super::domains::Domains2;
 use super::{Constrained2, SegmentId};
@@ -104,7 +104,7 @@ impl Constrained2 {
 
     fn diagonal(&self) -> f64 {
         let [width, height] = Bounds::of(self.vertices().map(|v| self.point(v))).extent();
-        width.hypot(height)
+        hypotenuse(width, height)
     }
 
     /// The narrowest of a gap and of those between a vertex and constraints that it sees inside, up to a limit.
@@ -198,7 +198,7 @@ fn nearest(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
 }
 
 fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (q[0] - p[0]).hypot(q[1] - p[1])
+    hypotenuse(q[0] - p[0], q[1] - p[1])
 }
 
 /// The direction from one place to another.

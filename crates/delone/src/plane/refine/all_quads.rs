@@ -174,6 +174,6 @@ pub(super) fn range_of_angles(quads: impl Iterator<Item = [[f64; 2]; 4]>) -> Opt
 /// The angle at a corner, in degrees from 0 to 360.
 fn angle(p: [[f64; 2]; 4], k: usize) -> f64 {
     let [u, v] = [p[(k + 1) % 4], p[(k + 3) % 4]].map(|q| super::quads::direction(p[k], q));
-    let degrees = (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]).to_degrees();
+    let degrees = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]).to_degrees();
     if degrees < 0.0 { degrees + 360.0 } else { degrees }
 }

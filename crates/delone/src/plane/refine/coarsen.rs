@@ -68,7 +68,7 @@ impl Refined2 {
         };
         let mut candidates: Vec<VertexId> = c.vertices().filter(|&v| may_go(v)).collect();
         candidates.sort_unstable();
-        let cosine = min_angle.to_radians().cos();
+        let cosine = libm::cos(min_angle.to_radians());
         for v in candidates.into_iter().rev() {
             let mesh = c.mesh();
             let star: Vec<EdgeId> = mesh.star(v).filter(|e| !mesh.is_ghost(e.triangle())).collect();

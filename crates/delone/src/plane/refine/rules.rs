@@ -97,7 +97,7 @@ impl<'a> Rules<'a> {
         let area = |region: Option<usize>| region.and_then(|r| domains.regions[r].max_area);
         let own = |&part: &usize| area(domains.parts()[part].region).map_or(general, |own| own.min(general));
         let areas = before.parts[..before.inside].iter().map(own);
-        let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();
+        let lens = libm::cos(2.0 * angle.max(NARROWEST.to_radians()));
         let areas: Vec<f64> = std::iter::once(f64::INFINITY).chain(areas).collect();
         let of_region = |region: Option<usize>| region.and_then(|r| domains.regions[r].max_edge);
         let lengths = before.parts[..before.inside]
@@ -116,9 +116,9 @@ impl<'a> Rules<'a> {
         // A function may say yes for ever.
         let room = if wanted.refine_if.is_some() { unasked.min(before.room) } else { before.room };
         Self {
-            squared_cosine: if angle > 0.0 { angle.cos() * angle.cos() } else { 2.0 },
+            squared_cosine: if angle > 0.0 { libm::cos(angle) * libm::cos(angle) } else { 2.0 },
             lens: lens * lens,
-            reach: SHORT * 0.5 / (0.5 * angle.max(NARROWEST.to_radians())).tan(),
+            reach: SHORT * 0.5 / libm::tan(0.5 * angle.max(NARROWEST.to_radians())),
             placement: wanted.placement,
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),

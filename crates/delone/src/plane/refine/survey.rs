@@ -25,7 +25,7 @@ pub(super) fn report(
     let mut report = RefinementReport2 { inside, on_constraints, ..RefinementReport2::default() };
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
     // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
-    let bounds: Vec<f64> = (1..180 / BIN).map(|k| 1.0 / ((BIN * k) as f64).to_radians().tan()).collect();
+    let bounds: Vec<f64> = (1..180 / BIN).map(|k| 1.0 / libm::tan(((BIN * k) as f64).to_radians())).collect();
     let bin = |cotangent: f64| bounds.partition_point(|&bound| cotangent <= bound);
     let (mut largest, mut smallest) = (f64::NEG_INFINITY, f64::INFINITY);
     for t in layer.mesh.triangles() {
@@ -61,7 +61,7 @@ pub(super) fn report(
     }
     report.triangles += report.layers.triangles;
     if largest > f64::NEG_INFINITY {
-        let degrees = |cotangent: f64| 1f64.atan2(cotangent).to_degrees();
+        let degrees = |cotangent: f64| libm::atan2(1.0, cotangent).to_degrees();
         (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));
     }
     report

@@ -10,7 +10,7 @@
 //!
 //! Cost: O(n) for the cells inside of the region, O(d (d + s)) for a cell with d neighbors where s sides of it are near.
 
-use delone_predicates::Line;
+use delone_predicates::{Line, hypotenuse};
 
 use super::Regular2;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
@@ -119,7 +119,7 @@ impl<'a> Power2<'a> {
                 });
                 if length > 0.0 {
                     let [p, q] = [place, w].map(|p| layer.points[p.index()]);
-                    let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
+                    let distance = hypotenuse(q[0] - p[0], q[1] - p[1]);
                     derivatives.push(([v, layer.mesh.name(w)], -length / (2.0 * distance)));
                 }
             }
@@ -135,7 +135,7 @@ impl<'a> Power2<'a> {
         let [p, q] = triangles.map(|t| centers[t.index()]);
         let Bounds { low, high } = Bounds::of([p, q]);
         let [low, high] = enlarged(low, high)?;
-        (region.relation(low, high) == Relation::Inside).then(|| (q[0] - p[0]).hypot(q[1] - p[1]))
+        (region.relation(low, high) == Relation::Inside).then(|| hypotenuse(q[0] - p[0], q[1] - p[1]))
     }
 }
 
@@ -146,7 +146,7 @@ fn clipped_borders(r: &Regular2, region: &Region2, place: Place) -> Vec<(Line, f
     for ring in &rings {
         for (corner, next) in ring.iter().zip(ring.iter().cycle().skip(1)) {
             if let (Some(p), Some(q)) = (corner.spot.rounded(), next.spot.rounded()) {
-                borders.push((corner.line, (q[0] - p[0]).hypot(q[1] - p[1])));
+                borders.push((corner.line, hypotenuse(q[0] - p[0], q[1] - p[1])));
             }
         }
     }

@@ -7,6 +7,7 @@
 use super::cells::{Cells2, Ring};
 use crate::ids::VertexId;
 use crate::sorting;
+use delone_predicates::hypotenuse;
 
 /// A side of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,7 +28,7 @@ impl Side {
 
     fn length(&self) -> f64 {
         let [p, q] = self.ends.map(|p| p.map(f64::from_bits));
-        (q[0] - p[0]).hypot(q[1] - p[1])
+        hypotenuse(q[0] - p[0], q[1] - p[1])
     }
 }
 

@@ -4,6 +4,7 @@
 
 use crate::ids::VertexId;
 use crate::plane::region::measure;
+use delone_predicates::hypotenuse;
 
 /// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Neighboring cells
 /// share the vertices between them.
@@ -132,7 +133,7 @@ impl<'a> Cell2<'a> {
 
     /// The length of the border, holes included, in coordinate units.
     pub fn perimeter(self) -> f64 {
-        let lengths = self.rings().flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1]));
+        let lengths = self.rings().flat_map(Ring::sides).map(|[p, q]| hypotenuse(q[0] - p[0], q[1] - p[1]));
         lengths.fold(0.0, |sum, length| sum + length)
     }
 

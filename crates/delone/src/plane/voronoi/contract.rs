@@ -12,7 +12,7 @@
 
 use std::cmp::Ordering;
 
-use delone_predicates::{lexicographic, orient2d};
+use delone_predicates::{hypotenuse, lexicographic, orient2d};
 
 use super::cells::Cells2;
 use crate::plane::region::Region2;
@@ -349,7 +349,7 @@ impl Mending<'_> {
             let u = [q[0] - p[0], q[1] - p[1]];
             let axis = usize::from(u[0].abs() < u[1].abs());
             let [from, to] = [p[axis].min(q[axis]), p[axis].max(q[axis])];
-            let length = u[0].hypot(u[1]);
+            let length = hypotenuse(u[0], u[1]);
             for &corner in corners {
                 let at = self.at(corner);
                 let w = [at[0] - p[0], at[1] - p[1]];

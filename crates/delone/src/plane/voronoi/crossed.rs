@@ -4,7 +4,7 @@
 //! a piece that was clear before. Around a hub of lines this goes on from line to line: to follow it here takes one triangulation instead
 //! of one a line. Cost: a search in a tree for each piece that is marked.
 
-use delone_predicates::angle;
+use delone_predicates::{angle, hypotenuse};
 
 use super::lines::Piece;
 use crate::plane::boxes::Boxes;
@@ -26,7 +26,7 @@ pub(super) fn mark_crossed(
     marked.iter().for_each(|&piece| is_marked[piece] = true);
     let circle = |&piece: &usize| {
         let [a, b] = ends(piece);
-        let radius = 0.5 * (b[0] - a[0]).hypot(b[1] - a[1]);
+        let radius = 0.5 * hypotenuse(b[0] - a[0], b[1] - a[1]);
         let center = middle([a, b]);
         // Two roundings: of the center, and of the sum.
         [

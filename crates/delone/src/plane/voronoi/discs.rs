@@ -6,6 +6,7 @@
 
 use super::lines::{Piece, nearest_on};
 use crate::plane::boxes::{Boxes, span};
+use delone_predicates::hypotenuse;
 
 /// The pieces that may be divided, in a tree.
 pub(super) struct Discs<'a> {
@@ -19,7 +20,7 @@ pub(super) struct Discs<'a> {
 }
 
 fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
+    hypotenuse(p[0] - q[0], p[1] - q[1])
 }
 
 impl<'a> Discs<'a> {

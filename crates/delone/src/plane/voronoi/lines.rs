@@ -19,7 +19,7 @@
 
 use std::collections::BTreeMap;
 
-use delone_predicates::{angle, lexicographic};
+use delone_predicates::{angle, hypotenuse, lexicographic};
 
 use super::VoronoiEdge2;
 use super::cells::Cells2;
@@ -358,7 +358,7 @@ impl<'a> Round<'a> {
         for t in mesh.triangles().filter(|&t| mesh.corners(t).iter().any(|site| changed[site.index()])) {
             let Some(at) = self.d.circumcenter(t) else { continue };
             let is_within = [0, 1].into_iter().all(|k| low[k] <= at[k] && at[k] <= high[k]);
-            let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
+            let distance = |p: [f64; 2]| hypotenuse(p[0] - at[0], p[1] - at[1]);
             for site in mesh.corners(t).map(VertexId::index).into_iter().filter(|_| is_within) {
                 let (near, piece) = self.nearest(at, site);
                 let nearer = distance(self.made.sites[site]) - distance(near);
@@ -371,7 +371,7 @@ impl<'a> Round<'a> {
 
     fn length(&self, piece: usize) -> f64 {
         let [a, b] = self.ends(piece);
-        (b[0] - a[0]).hypot(b[1] - a[1])
+        hypotenuse(b[0] - a[0], b[1] - a[1])
     }
 
     fn may_be_divided(&self, piece: usize) -> bool {
@@ -403,7 +403,7 @@ impl<'a> Round<'a> {
     pub(super) fn nearest(&self, at: [f64; 2], site: usize) -> ([f64; 2], Option<usize>) {
         let own = self.made.sites[site];
         // No square overflows or vanishes.
-        let distance = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
+        let distance = |p: [f64; 2]| hypotenuse(p[0] - at[0], p[1] - at[1]);
         let mut best = (own, None);
         for &piece in &self.at_sites[site] {
             let place = nearest_on(at, self.pieces[piece].ends.map(|site| self.made.sites[site]));
@@ -454,7 +454,7 @@ pub(super) fn checked(segments: usize, lines: usize, tolerance: f64) -> Result<(
 
 /// The place of a segment that is nearest to a point.
 pub(super) fn nearest_on(at: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
-    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let length = hypotenuse(b[0] - a[0], b[1] - a[1]);
     let way = [0, 1].map(|k| (b[k] - a[k]) / length);
     let along = way[0] * (at[0] - a[0]) + way[1] * (at[1] - a[1]);
     if along > 0.0 && along < length {
@@ -470,9 +470,9 @@ pub(super) fn nearest_on(at: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
 /// if these are one place.
 pub(super) fn deviation_at(at: [f64; 2], near: [[f64; 2]; 2]) -> Option<(f64, f64)> {
     let ways = near.map(|p| [p[0] - at[0], p[1] - at[1]]);
-    let lengths = ways.map(|way| way[0].hypot(way[1]));
+    let lengths = ways.map(|way| hypotenuse(way[0], way[1]));
     let units = [0, 1].map(|i| ways[i].map(|x| x / lengths[i]));
-    let steepness = (units[0][0] - units[1][0]).hypot(units[0][1] - units[1][1]);
+    let steepness = hypotenuse(units[0][0] - units[1][0], units[0][1] - units[1][1]);
     let off = (lengths[0] - lengths[1]).abs() / steepness;
     let cosine = units[0][0] * units[1][0] + units[0][1] * units[1][1];
     (!off.is_nan()).then_some((off, cosine))

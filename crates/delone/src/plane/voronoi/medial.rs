@@ -6,6 +6,7 @@
 //!
 //! Cost: that of the cells of lines.
 
+use delone_predicates::hypotenuse;
 use std::collections::BTreeMap;
 
 use super::VoronoiEdge2;
@@ -71,7 +72,7 @@ impl MedialAxis2 {
         }
         let bounds = Bounds::of(c.vertices().map(|v| c.point(v)));
         let Ok(region) = Region2::rectangle(bounds.low, bounds.high) else { return Ok(Self::default()) };
-        let most = angle.to_radians().cos();
+        let most = libm::cos(angle.to_radians());
         let borders = Borders { tolerance, cosine: Some(most) };
         let mut border = LineCells2::default();
         let mut pieces = border.pieces(c, |_| 0);
@@ -96,7 +97,7 @@ impl MedialAxis2 {
                     made.points.len() - 1
                 })
             }));
-            let distance = |place: [f64; 2]| (place[0] - middle[0]).hypot(place[1] - middle[1]);
+            let distance = |place: [f64; 2]| hypotenuse(place[0] - middle[0], place[1] - middle[1]);
             made.widths.push(2.0 * distance(near[0]).min(distance(near[1])));
             made.triangles.push(inside);
         }

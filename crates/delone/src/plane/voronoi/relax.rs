@@ -8,6 +8,7 @@
 use crate::error::Error;
 use crate::plane::Delaunay2;
 use crate::plane::Region2;
+use delone_predicates::hypotenuse;
 
 /// How far to relax.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +74,7 @@ impl Relaxation2 {
             for v in current.vertices() {
                 if let Some(centroid) = cells.centroid(v) {
                     let [x, y] = sites[v.index()];
-                    furthest = furthest.max((centroid[0] - x).hypot(centroid[1] - y));
+                    furthest = furthest.max(hypotenuse(centroid[0] - x, centroid[1] - y));
                     sites[v.index()] = centroid;
                 }
             }

@@ -118,8 +118,8 @@ fn thin_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, rando
     if many == 0.0 {
         return 0.0;
     }
-    let steps = (sites.len() as f64 / THIN[1] as f64).ln() / (THIN[1] as f64 / THIN[0] as f64).ln();
-    many * (many / few).min(1.0).powf(steps)
+    let steps = libm::log(sites.len() as f64 / THIN[1] as f64) / libm::log(THIN[1] as f64 / THIN[0] as f64);
+    many * libm::pow((many / few).min(1.0), steps)
 }
 
 /// The share that all points of some boxes on the cut predict. A box is put at a random point near the cut; so each point is in as
@@ -133,7 +133,7 @@ fn dense_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, rand
     let (mut shares, mut boxes) = (0.0, 0);
     for _ in 0..DENSE {
         // As wide as it takes for so many points if they were spread evenly; wider until some are on either side.
-        let mut part = (THIN[0] as f64 / points.len() as f64).cbrt();
+        let mut part = libm::cbrt(THIN[0] as f64 / points.len() as f64);
         while part < 1.0 {
             let near: Vec<u32> = (0..points.len() as u32)
                 .filter(|&i| is_near(&sites.point(i), &[at; 3], part, axis))

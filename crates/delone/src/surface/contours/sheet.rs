@@ -2,7 +2,7 @@
 //!
 //! Cost: O(t), 24 bytes a triangle.
 
-use delone_predicates::lexicographic;
+use delone_predicates::{hypotenuse, lexicographic};
 
 use crate::ids::VertexId;
 use crate::triangulation::Triangulation;
@@ -57,7 +57,7 @@ fn longest_of_flat(unsorted: [[f64; 2]; 3]) -> Option<usize> {
         [q[0] - p[0], q[1] - p[1]]
     };
     let sides = [side(0), side(1), side(2)];
-    let lengths = sides.map(|[x, y]| x.hypot(y));
+    let lengths = sides.map(|[x, y]| hypotenuse(x, y));
     let longest = (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j]))?;
     let [[a, b], [c, d]] = [sides[(longest + 1) % 3], sides[(longest + 2) % 3]];
     let size = corners.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));

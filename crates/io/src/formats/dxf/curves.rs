@@ -115,6 +115,6 @@ pub(super) fn cosine_and_sine(degrees: f64) -> [f64; 2] {
         90.0 => [0.0, 1.0],
         180.0 => [-1.0, 0.0],
         270.0 => [0.0, -1.0],
-        angle => [angle.to_radians().cos(), angle.to_radians().sin()],
+        angle => [libm::cos(angle.to_radians()), libm::sin(angle.to_radians())],
     }
 }

@@ -6,6 +6,8 @@
 //! Source: Bolton, "Biarc curves", Computer-Aided Design 1975; points of splines by de Boor's algorithm ("On calculating with B-splines", J.
 //! Approx. Theory 1972).
 
+use delone_predicates::hypotenuse;
+
 /// The largest distance of arcs from a curve, as a part of its extent: a quarter of an ellipse is eight arcs or fewer.
 const FARTHEST_ARC: f64 = 1e-4;
 /// The least bulge of an arc: what rises over its chord by less than half of a hundred-millionth of it is a line.
@@ -34,12 +36,12 @@ impl Ellipse {
     pub(super) fn arcs(&self, [first, last]: [f64; 2]) -> Vec<Vertex> {
         let [a, b] = self.axes;
         let at = |t: f64| {
-            let (sine, cosine) = t.sin_cos();
+            let (sine, cosine) = libm::sincos(t);
             let sum = |p: f64, q: f64| [0, 1].map(|k| p * a[k] + q * b[k]);
             let around = sum(cosine, sine);
             ([self.center[0] + around[0], self.center[1] + around[1]], sum(-sine, cosine))
         };
-        let extent = a[0].hypot(a[1]);
+        let extent = hypotenuse(a[0], a[1]);
         let mut vertices = Vec::new();
         for k in 0..4 {
             let part = |k: i32| first + (last - first) * (f64::from(k) / 4.0);
@@ -143,7 +145,7 @@ fn halve(at: Curve, [from, to]: [f64; 2], farthest: f64, halvings: usize, vertic
 
 /// Two arcs with these ends and tangents there; a line if there are none.
 fn biarc((p, u): ([f64; 2], [f64; 2]), (q, v): ([f64; 2], [f64; 2])) -> Vec<Vertex> {
-    let unit = |w: [f64; 2]| w.map(|x| x / w[0].hypot(w[1]));
+    let unit = |w: [f64; 2]| w.map(|x| x / hypotenuse(w[0], w[1]));
     let (u, v, w) = (unit(u), unit(v), [q[0] - p[0], q[1] - p[1]]);
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
@@ -153,7 +155,7 @@ fn biarc((p, u): ([f64; 2], [f64; 2]), (q, v): ([f64; 2], [f64; 2])) -> Vec<Vert
     let joint = [0, 1].map(|k| p[k].midpoint(q[k]) + 0.5 * reach * (u[k] - v[k]));
     let [first, second] = [[joint[0] - p[0], joint[1] - p[1]], [q[0] - joint[0], q[1] - joint[1]]];
     let bulges = [(u, first), (second, v)].map(|(a, b)| {
-        let lengths = a[0].hypot(a[1]) * b[0].hypot(b[1]);
+        let lengths = hypotenuse(a[0], a[1]) * hypotenuse(b[0], b[1]);
         let bulge = cross(a, b) / (lengths + dot(a, b));
         if bulge.abs() < LEAST_BULGE { 0.0 } else { bulge }
     });
@@ -169,7 +171,7 @@ fn distance(p: [f64; 2], arcs: &[Vertex], end: [f64; 2]) -> f64 {
     let ends = arcs.iter().skip(1).map(|arc| arc.0).chain([end]);
     let from_arc = |(&(a, bulge), b): (&Vertex, [f64; 2])| {
         let (chord, own) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-        let length = chord[0].hypot(chord[1]);
+        let length = hypotenuse(chord[0], chord[1]);
         // Along the chord and to its left, as parts of it.
         let x = (own[0] * chord[0] + own[1] * chord[1]) / (length * length) - 0.5;
         let y = (chord[0] * own[1] - chord[1] * own[0]) / (length * length);

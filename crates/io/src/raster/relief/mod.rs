@@ -10,6 +10,7 @@ mod png;
 mod scale;
 
 use delone::surface::Grid;
+use delone_predicates::hypotenuse;
 
 use crate::Crs;
 use scale::Scale;
@@ -161,7 +162,11 @@ impl Shader {
     fn of(kind: ReliefKind) -> Self {
         let towards = |azimuth: f64, altitude: f64| {
             let [azimuth, altitude] = [azimuth, altitude].map(f64::to_radians);
-            [azimuth.sin() * altitude.cos(), azimuth.cos() * altitude.cos(), altitude.sin()]
+            [
+                libm::sin(azimuth) * libm::cos(altitude),
+                libm::cos(azimuth) * libm::cos(altitude),
+                libm::sin(altitude),
+            ]
         };
         match kind {
             ReliefKind::Hillshade(light) => Self::One(towards(light.azimuth, light.altitude)),
@@ -180,13 +185,13 @@ impl Shader {
         let bright = |light: &[f64; 3]| {
             (normal.iter().zip(light).map(|(a, b)| a * b).sum::<f64>() / length).clamp(0.0, 1.0)
         };
-        let steep = east.hypot(north);
+        let steep = hypotenuse(east, north);
         match self {
             Self::One(light) => 1.0 + 254.0 * bright(light),
             Self::Four(lights) if steep == 0.0 => 1.0 + 254.0 * bright(&lights[0]),
             Self::Four(lights) => {
                 let weight = |azimuth: &f64| {
-                    let (sine, cosine) = azimuth.to_radians().sin_cos();
+                    let (sine, cosine) = libm::sincos(azimuth.to_radians());
                     ((east * sine + north * cosine) / steep).powi(2)
                 };
                 1.0 + 127.0
@@ -196,10 +201,10 @@ impl Shader {
                         .map(|(azimuth, light)| weight(azimuth) * bright(light))
                         .sum::<f64>()
             }
-            Self::Slope => steep.atan().to_degrees(),
+            Self::Slope => libm::atan(steep).to_degrees(),
             Self::Aspect if steep == 0.0 => f64::NAN,
             Self::Aspect => {
-                let degrees = (-east).atan2(-north).to_degrees();
+                let degrees = libm::atan2(-east, -north).to_degrees();
                 if degrees < 0.0 { degrees + 360.0 } else { degrees }
             }
         }

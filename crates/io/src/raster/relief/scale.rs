@@ -45,7 +45,7 @@ impl Scale {
 
 /// The metres of a degree of longitude and of one of latitude.
 fn degree(latitude: f64) -> [f64; 2] {
-    let (sine, cosine) = latitude.clamp(-90.0, 90.0).to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos(latitude.clamp(-90.0, 90.0).to_radians());
     let part = 1.0 - ECCENTRICITY * sine * sine;
     [AXIS * cosine / part.sqrt(), AXIS * (1.0 - ECCENTRICITY) / (part * part.sqrt())].map(f64::to_radians)
 }
