@@ -3,8 +3,9 @@
 // The arrays are made when first read, and again after a change. Points are never moved, and never copied unless they change by
 // `insert` or `move`.
 
-import {absentees, checkNumber, flatCoordinates, flattened, number, pointX, pointY, takeOptions} from "./input.js";
+import {absentees, checkIndex, checkNumber, flatCoordinates, flattened, listed, number, pointX, pointY, takeOptions} from "./input.js";
 import {alongLine} from "./line.js";
+import {own, shared} from "./own.js";
 import {closed, drawn, drawPolygon} from "./path.js";
 import {joinedTo, Plane, planeOf} from "./plane.js";
 import {Voronoi} from "./voronoi.js";
@@ -32,10 +33,24 @@ export class Delaunay {
     return new Delaunay(flattened(points, fx, fy, that), options);
   }
 
+  /**
+   * Of a copy of a triangulation: what `JSON.parse`, `structuredClone`, a message or a spread gives. Points that were removed stay so. The
+   * copy's arrays are not read, but for the points: these are triangulated again.
+   */
+  static fromJSON(copy, options = {}) {
+    const flat = flatCoordinates(copy?.points);
+    const delaunay = new Delaunay([], options);
+    delaunay.points = delaunay.#known = flat === copy.points ? flat.slice() : flat;
+    const removed = listed(copy.removed ?? [], "the removed points are an array of indices");
+    delaunay.#removed = new Set(Array.from(removed, (i) => checkIndex(i, flat.length >> 1)));
+    return delaunay.update();
+  }
+
   /** Of a flat array of coordinates, which is kept and not copied. Of an odd number the last one is ignored. */
   constructor(points, options = {}) {
     this.points = points;
     this.#options = options;
+    Object.defineProperties(this, copied);
     this.update();
   }
 
@@ -116,6 +131,17 @@ export class Delaunay {
   /** Pairs in a row: a point that is no vertex, and the earlier one that it equals. */
   get duplicates() {
     return (this.#now.duplicates ??= this.#plane.duplicates());
+  }
+
+  /** The points that were removed, and those that equalled them. */
+  get removed() {
+    return (this.#now.removed ??= Uint32Array.from(this.#removed).sort());
+  }
+
+  /** The arrays as JSON has them; a coordinate that is not finite is null there. */
+  toJSON() {
+    const {points} = this;
+    return {points: Array.from({length: points.length}, (_, k) => points[k]), ...shared(this, copied)};
   }
 
   /** The neighbors of a point, around it; on a line the one before and the one after. */
@@ -266,7 +292,8 @@ export class Delaunay {
   #equalTo(i) {
     if (!this.#equals) {
       this.#equals = new Map();
-      const {duplicates} = this;
+      // Not ours, which are kept with all arrays: a change makes none.
+      const duplicates = this.#plane.duplicates();
       for (let k = 0; k < duplicates.length; k += 2) {
         const [point, vertex] = [duplicates[k], duplicates[k + 1]];
         this.#equals.get(vertex)?.push(point) ?? this.#equals.set(vertex, [point]);
@@ -313,6 +340,9 @@ export class Delaunay {
     this.#plane.check();
   }
 }
+
+/** What copies have. */
+const copied = own(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear", "removed"]);
 
 /** For each point its rank along a line; -1 for those not there. */
 function ranked(order, count) {

@@ -3,6 +3,7 @@
 
 import {Cells} from "./cells.js";
 import {checkBounds, number} from "./input.js";
+import {own, shared} from "./own.js";
 import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
 
@@ -15,6 +16,7 @@ export class Voronoi {
   /** Or by `delaunay.voronoi(bounds)`. */
   constructor(delaunay, bounds = [0, 0, 960, 500]) {
     this.delaunay = delaunay;
+    Object.defineProperties(this, copied);
     [this.xmin, this.ymin, this.xmax, this.ymax] = checkBounds(bounds);
   }
 
@@ -147,6 +149,12 @@ export class Voronoi {
 
   // What d3 has not.
 
+  /** As JSON has it; an infinite circumcenter is null there. */
+  toJSON() {
+    const {delaunay, xmin, ymin, xmax, ymax} = this;
+    return {delaunay, xmin, ymin, xmax, ymax, ...shared(this, copied)};
+  }
+
   get #measures() {
     return (this.#now.measures ??= this.#plane.measures(this.#bounds, this.delaunay.points));
   }
@@ -174,6 +182,9 @@ export class Voronoi {
     return Array.from({length: this.delaunay.points.length >> 1}, (_, i) => cells.rings(plane.place(i)));
   }
 }
+
+/** What copies have. */
+const copied = own(Voronoi, ["circumcenters", "vectors"]);
 
 const after = (ring, k) => ring[(k + 1) % ring.length];
 
