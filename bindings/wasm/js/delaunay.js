@@ -5,7 +5,7 @@
 
 import {absentees, checkIndex, checkNumber, flatCoordinates, flattened, listed, number, pointX, pointY, takeOptions} from "./input.js";
 import {alongLine} from "./line.js";
-import {own, shared} from "./own.js";
+import {getters, own, shared} from "./own.js";
 import {closed, drawn, drawPolygon} from "./path.js";
 import {joinedTo, Plane, planeOf} from "./plane.js";
 import {Voronoi} from "./voronoi.js";
@@ -25,6 +25,8 @@ export class Delaunay {
   /** Our own copy of the points once they changed here, with room for more. */
   #own;
   #version = 0;
+  /** Whether arrays can be made, and so are copied. */
+  #isThere = false;
 
   /** Of an array, an iterable or `{length}`; `fx` and `fy` give coordinates: `fx(point, index, points)`. */
   static from(points, ...rest) {
@@ -50,7 +52,7 @@ export class Delaunay {
   constructor(points, options = {}) {
     this.points = points;
     this.#options = options;
-    Object.defineProperties(this, copied);
+    own(this, kept);
     this.update();
   }
 
@@ -59,6 +61,8 @@ export class Delaunay {
     const flat = flatCoordinates(this.points);
     const removed = this.points === this.#known ? this.#removed : new Set();
     const plane = new Plane(flat, absentees(flat, this.#options, removed.size ? removed : undefined));
+    if (!this.#isThere) own(this, copied);
+    this.#isThere = true;
     this.#plane?.dispose();
     [this.#plane, this.#removed, this.#known, this.#equals] = [plane, removed, this.points, undefined];
     this.#changed();
@@ -68,6 +72,9 @@ export class Delaunay {
   /** Gives the module's memory back; whatever needs it then throws. It also happens when nobody refers to this object any more. */
   dispose() {
     this.#plane.dispose();
+    // What looks at all properties, as tools of developers do, is not to meet errors.
+    if (this.#isThere) for (const [name] of copied) delete this[name];
+    this.#isThere = false;
     this.#changed();
   }
 
@@ -135,13 +142,13 @@ export class Delaunay {
 
   /** The points that were removed, and those that equalled them. */
   get removed() {
-    return (this.#now.removed ??= Uint32Array.from(this.#removed).sort());
+    return Uint32Array.from(this.#removed).sort();
   }
 
   /** The arrays as JSON has them; a coordinate that is not finite is null there. */
   toJSON() {
     const {points} = this;
-    return {points: Array.from({length: points.length}, (_, k) => points[k]), ...shared(this, copied)};
+    return {points: Array.from({length: points.length}, (_, k) => points[k]), removed: [...this.removed], ...shared(this, copied)};
   }
 
   /** The neighbors of a point, around it; on a line the one before and the one after. */
@@ -341,8 +348,9 @@ export class Delaunay {
   }
 }
 
-/** What copies have. */
-const copied = own(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear", "removed"]);
+/** What copies always have, and what they have as long as it can be made. */
+const kept = getters(Delaunay, ["removed"]);
+const copied = getters(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear"]);
 
 /** For each point its rank along a line; -1 for those not there. */
 function ranked(order, count) {

@@ -3,7 +3,7 @@
 
 import {Cells} from "./cells.js";
 import {checkBounds, number} from "./input.js";
-import {own, shared} from "./own.js";
+import {getters, own, shared} from "./own.js";
 import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
 
@@ -16,7 +16,7 @@ export class Voronoi {
   /** Or by `delaunay.voronoi(bounds)`. */
   constructor(delaunay, bounds = [0, 0, 960, 500]) {
     this.delaunay = delaunay;
-    Object.defineProperties(this, copied);
+    own(this, copied);
     [this.xmin, this.ymin, this.xmax, this.ymax] = checkBounds(bounds);
   }
 
@@ -184,7 +184,7 @@ export class Voronoi {
 }
 
 /** What copies have. */
-const copied = own(Voronoi, ["circumcenters", "vectors"]);
+const copied = getters(Voronoi, ["circumcenters", "vectors"]);
 
 const after = (ring, k) => ring[(k + 1) % ring.length];
 
