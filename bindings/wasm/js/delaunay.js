@@ -25,8 +25,6 @@ export class Delaunay {
   /** Our own copy of the points once they changed here, with room for more. */
   #own;
   #version = 0;
-  /** Whether arrays can be made, and so are copied. */
-  #isThere = false;
 
   /** Of an array, an iterable or `{length}`; `fx` and `fy` give coordinates: `fx(point, index, points)`. */
   static from(points, ...rest) {
@@ -36,8 +34,8 @@ export class Delaunay {
   }
 
   /**
-   * Of a copy of a triangulation: what `JSON.parse`, `structuredClone`, a message or a spread gives. Points that were removed stay so. The
-   * copy's arrays are not read, but for the points: these are triangulated again.
+   * Of a copy of a triangulation by `JSON.parse`, `structuredClone`, a message or a spread. Its points are triangulated again, without those
+   * that were removed; its other arrays are not read.
    */
   static fromJSON(copy, options = {}) {
     const flat = flatCoordinates(copy?.points);
@@ -52,7 +50,7 @@ export class Delaunay {
   constructor(points, options = {}) {
     this.points = points;
     this.#options = options;
-    own(this, kept);
+    own(this, copied);
     this.update();
   }
 
@@ -61,20 +59,18 @@ export class Delaunay {
     const flat = flatCoordinates(this.points);
     const removed = this.points === this.#known ? this.#removed : new Set();
     const plane = new Plane(flat, absentees(flat, this.#options, removed.size ? removed : undefined));
-    if (!this.#isThere) own(this, copied);
-    this.#isThere = true;
     this.#plane?.dispose();
     [this.#plane, this.#removed, this.#known, this.#equals] = [plane, removed, this.points, undefined];
     this.#changed();
     return this;
   }
 
-  /** Gives the module's memory back; whatever needs it then throws. It also happens when nobody refers to this object any more. */
+  /**
+   * Gives the module's memory back. Arrays are undefined then: tools that look at all properties, as React does, are not to meet errors. All else
+   * that needs the module throws. It also happens when nobody refers to this object any more.
+   */
   dispose() {
     this.#plane.dispose();
-    // What looks at all properties, as tools of developers do, is not to meet errors.
-    if (this.#isThere) for (const [name] of copied) delete this[name];
-    this.#isThere = false;
     this.#changed();
   }
 
@@ -92,29 +88,36 @@ export class Delaunay {
     return (this.#arrays ??= this.#plane.arrays());
   }
 
+  /** The same, and nothing after the triangulation was disposed of. */
+  get #left() {
+    return this.#plane.isThere ? this.#now : undefined;
+  }
+
   /** Corners of triangles, three each. Of one or two distinct points three numbers, as in d3. */
   get triangles() {
-    const {hull, triangles} = this.#now;
-    if (hull.length === 0 || hull.length > 2) return triangles;
-    return (this.#now.few ??= Int32Array.of(hull[0], hull[1] ?? -1, hull[1] ?? -1));
+    const now = this.#left;
+    const {hull, triangles} = now ?? {};
+    if (!now || hull.length === 0 || hull.length > 2) return triangles;
+    return (now.few ??= Int32Array.of(hull[0], hull[1] ?? -1, hull[1] ?? -1));
   }
 
   /** For each half-edge its twin, or -1. */
   get halfedges() {
-    const {hull, halfedges} = this.#now;
-    if (hull.length === 0 || hull.length > 2) return halfedges;
-    return (this.#now.none ??= Int32Array.of(-1, -1, -1));
+    const now = this.#left;
+    const {hull, halfedges} = now ?? {};
+    if (!now || hull.length === 0 || hull.length > 2) return halfedges;
+    return (now.none ??= Int32Array.of(-1, -1, -1));
   }
 
   /** The hull, counter-clockwise with y down; of points on a line those from end to end. */
   get hull() {
-    return this.#now.hull;
+    return this.#left?.hull;
   }
 
   /** For each point a half-edge that comes in, on the hull that from outside; -1 for what is no vertex. */
   get inedges() {
-    const now = this.#now;
-    if (now.inedges) return now.inedges;
+    const now = this.#left;
+    if (!now || now.inedges) return now?.inedges;
     const inedges = (now.inedges = new Int32Array(this.points.length >> 1).fill(-1));
     const {triangles, halfedges, hull} = now;
     for (let e = 0; e < halfedges.length; ++e) {
@@ -130,9 +133,9 @@ export class Delaunay {
 
   /** If three or more distinct points are all on a line: all points along it. Else undefined. */
   get collinear() {
-    const now = this.#now;
-    if (!("collinear" in now)) now.collinear = alongLine(now, this.points, (i) => this.#plane.place(i) >= 0 && !this.#removed.has(i));
-    return now.collinear;
+    const now = this.#left;
+    if (now && !("collinear" in now)) now.collinear = alongLine(now, this.points, (i) => this.#plane.place(i) >= 0 && !this.#removed.has(i));
+    return now?.collinear;
   }
 
   /** Pairs in a row: a point that is no vertex, and the earlier one that it equals. */
@@ -148,7 +151,7 @@ export class Delaunay {
   /** The arrays as JSON has them; a coordinate that is not finite is null there. */
   toJSON() {
     const {points} = this;
-    return {points: Array.from({length: points.length}, (_, k) => points[k]), removed: [...this.removed], ...shared(this, copied)};
+    return {points: Array.from({length: points.length}, (_, k) => points[k]), ...shared(this, copied)};
   }
 
   /** The neighbors of a point, around it; on a line the one before and the one after. */
@@ -223,7 +226,7 @@ export class Delaunay {
   }
 
   renderHull(context) {
-    return drawn(context, (context) => drawPolygon(context, this.#polygon(this.hull)));
+    return drawn(context, (context) => drawPolygon(context, this.#polygon(this.#now.hull)));
   }
 
   renderTriangle(i, context) {
@@ -246,11 +249,11 @@ export class Delaunay {
   }
 
   #corners(i) {
-    return Number.isInteger(i) && i >= 0 ? this.triangles.subarray(3 * i, 3 * i + 3) : [];
+    return this.#now && Number.isInteger(i) && i >= 0 ? this.triangles.subarray(3 * i, 3 * i + 3) : [];
   }
 
   hullPolygon() {
-    return closed(this.#polygon(this.hull));
+    return closed(this.#polygon(this.#now.hull));
   }
 
   trianglePolygon(i) {
@@ -348,9 +351,8 @@ export class Delaunay {
   }
 }
 
-/** What copies always have, and what they have as long as it can be made. */
-const kept = getters(Delaunay, ["removed"]);
-const copied = getters(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear"]);
+/** Properties that copies have. */
+const copied = getters(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear", "removed"]);
 
 /** For each point its rank along a line; -1 for those not there. */
 function ranked(order, count) {

@@ -11,7 +11,7 @@ export function own(object, getters) {
   for (const [name, getter] of getters) Object.defineProperty(object, name, getter);
 }
 
-/** What an object has by such getters, as plain arrays: of typed arrays JSON makes objects. */
+/** The arrays of an object by such getters, as plain ones: of typed arrays JSON makes objects. */
 export function shared(object, getters) {
   const arrays = getters.map(([name]) => [name, object[name]]);
   return Object.fromEntries(arrays.filter(([, array]) => array).map(([name, array]) => [name, Array.from(array)]));

@@ -51,16 +51,20 @@ export class Voronoi {
     return (now.cells = isFlat ? new Cells([], []) : this.#plane.cells(this.#bounds));
   }
 
-  /** The centers of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
+  /** The centers of the triangles' circles, two numbers each; infinite beyond the range of numbers. Undefined as arrays of a triangulation. */
   get circumcenters() {
+    return this.#plane.isThere ? this.#centers : undefined;
+  }
+
+  get #centers() {
     return (this.#now.circumcenters ??= this.#plane.circumcenters());
   }
 
   /** For each point four numbers: the directions in which the first and the last edge of its cell leave, if it is on the hull. */
   get vectors() {
     const now = this.#now;
-    if (now.vectors) return now.vectors;
     const {hull, points} = this.delaunay;
+    if (!hull || now.vectors) return now.vectors;
     const vectors = (now.vectors = new Float64Array(2 * (points.length & -2)));
     for (let k = 0; k < hull.length && hull.length > 1; ++k) {
       const [p, q] = [hull[(k || hull.length) - 1], hull[k]];
@@ -125,7 +129,7 @@ export class Voronoi {
 
   /** Draws the edges between cells, each once. */
   render(context) {
-    if (this.delaunay.hull.length <= 1) return null;
+    if (this.#plane.engine && this.delaunay.hull.length <= 1) return null;
     return drawn(context, (context) => {
       const count = this.delaunay.points.length >> 1;
       const isOnBounds = ([x, y], [u, v]) =>
@@ -183,7 +187,7 @@ export class Voronoi {
   }
 }
 
-/** What copies have. */
+/** Properties that copies have. */
 const copied = getters(Voronoi, ["circumcenters", "vectors"]);
 
 const after = (ring, k) => ring[(k + 1) % ring.length];

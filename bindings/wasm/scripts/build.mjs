@@ -91,7 +91,7 @@ else await Promise.all([small(), others()]);
 
 await steps.run("scripts by esbuild", async () => {
   const {build} = await import("esbuild");
-  /** What a file of ours and all that it imports is as a classic script with a global name. */
+  /** A file of ours and all that it imports, as a classic script with a global name. */
   const classic = (entry, globalName, options) =>
     build({entryPoints: [`${root}js/${entry}.js`], bundle: true, minify: true, format: "iife", globalName, target: "es2022", ...options});
   const banner = (what) => ({js: `// delone: ${what}. MIT OR Apache-2.0`});

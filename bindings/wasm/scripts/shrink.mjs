@@ -41,8 +41,8 @@ async function shrink(bytes) {
   }
   binaryen.setOptimizeLevel(3);
   binaryen.setShrinkLevel(0);
-  // The second pass takes away what the first one makes unreachable.
-  for (let pass = 0; pass < 2; ++pass) module.optimize();
+  // Once: again it takes a quarter as long, for 0.02 % of the bytes (2026-11-29).
+  module.optimize();
   module.runPasses(["strip-debug", "strip-producers", "strip-target-features"]);
   return module.emitBinary();
 }

@@ -126,7 +126,7 @@ export class Delaunay<P = Delaunay.Point> {
   move(i: number, x: number, y: number): void;
   /** Full module: proves that the triangulation is the canonical one, or throws. */
   check(): void;
-  /** Gives memory back; what needs it then throws. */
+  /** Gives memory back: arrays are undefined then, and what needs the module throws. */
   dispose(): void;
   /** What `JSON.stringify` writes: the points, and plain arrays of all that a copy has. */
   toJSON(): Delaunay.Json;

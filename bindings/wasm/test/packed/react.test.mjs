@@ -13,7 +13,7 @@ import {browse, noChromium} from "./support/chromium.mjs";
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const [, hook] = readFileSync(`${root}README.md`, "utf8").match(/^```jsx\n([\s\S]*?)^```$/m);
 
-/** What comes to mind first: in strict mode the triangulation on show is disposed of. */
+/** The hook that comes to mind first: in strict mode the triangulation on show is disposed of. */
 const naive = `import {useEffect, useMemo} from "react"; import {Delaunay} from "delone";
   export function useDelaunay(points) {
     const delaunay = useMemo(() => Delaunay.from(points), [points]);
@@ -22,7 +22,7 @@ const naive = `import {useEffect, useMemo} from "react"; import {Delaunay} from 
   }`;
 
 const program = (hook) => `
-  import {Component, createElement as h, StrictMode, useEffect} from "react";
+  import {Activity, Component, createElement as h, StrictMode, useEffect} from "react";
   import {createRoot} from "react-dom/client";
   import {Delaunay} from "delone";
   import {useDelaunay} from "./${hook}.js";
@@ -58,7 +58,9 @@ const program = (hook) => `
 
   const points = (seed) => Array.from({length: 20}, (_, k) => [(k * 7.13 + seed) % 10, (k * 3.77 + seed * seed) % 10]);
   const root = createRoot(document.querySelector("main"));
-  globalThis.show = (seed) => root.render(h(StrictMode, null, h(Boundary, null, h(Cells, {points: points(seed)}))));
+  const known = {};
+  const cells = (seed) => h(Cells, {points: (known[seed] ??= points(seed))});
+  globalThis.show = (seed, mode = "visible") => root.render(h(StrictMode, null, h(Boundary, null, h(Activity, {mode}, cells(seed)))));
   globalThis.end = () => root.unmount();
 `;
 
@@ -90,6 +92,13 @@ test("the README's hook", {skip: noChromium}, async () => {
         assert.ok((await right.evaluate(() => alive())) >= 1);
       }
       assert.equal(paths.size, 10, "each shown");
+      // Hidden, and shown again as it was.
+      for (const mode of ["hidden", "visible", "hidden", "visible"]) {
+        await right.evaluate((mode) => show(9, mode), mode);
+        await settled(right);
+      }
+      assert.ok(paths.has(await right.locator("path").getAttribute("d")));
+      assert.equal(await right.locator("output").count(), 0);
       const {made, found} = await right.evaluate(() => counts());
       assert.ok(made >= 10 && found >= 10, "each made, and asked by effects of a child");
       await right.evaluate(() => end());
