@@ -90,22 +90,24 @@ export class Delaunay {
 
   /** The same, and nothing after the triangulation was disposed of. */
   get #left() {
-    return this.#plane.isThere ? this.#now : undefined;
+    return this.#arrays ?? (this.#plane.isThere ? this.#now : undefined);
   }
 
   /** Corners of triangles, three each. Of one or two distinct points three numbers, as in d3. */
   get triangles() {
     const now = this.#left;
-    const {hull, triangles} = now ?? {};
-    if (!now || hull.length === 0 || hull.length > 2) return triangles;
+    if (!now) return undefined;
+    const {hull, triangles} = now;
+    if (hull.length === 0 || hull.length > 2) return triangles;
     return (now.few ??= Int32Array.of(hull[0], hull[1] ?? -1, hull[1] ?? -1));
   }
 
   /** For each half-edge its twin, or -1. */
   get halfedges() {
     const now = this.#left;
-    const {hull, halfedges} = now ?? {};
-    if (!now || hull.length === 0 || hull.length > 2) return halfedges;
+    if (!now) return undefined;
+    const {hull, halfedges} = now;
+    if (hull.length === 0 || hull.length > 2) return halfedges;
     return (now.none ??= Int32Array.of(-1, -1, -1));
   }
 
