@@ -10,8 +10,8 @@ export {Delaunay as default} from "./delaunay.js";
 let waiting;
 
 /**
- * Makes the module ready: from an address, a response, bytes or a compiled module; by default from the file beside this one. Until then
- * nothing can be triangulated. A second call waits for the first.
+ * Makes the module ready: from an address as `fetch` takes it, a response, bytes or a compiled module; by default from the file of this
+ * package. Until then nothing can be triangulated. A second call waits for the first.
  */
 export function init(source = new URL("../dist/delone.wasm", import.meta.url)) {
   waiting ??= compile(source).then(
@@ -35,12 +35,11 @@ async function compiled(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer) return WebAssembly.compile(source);
   if (typeof Response !== "undefined" && source instanceof Response) return WebAssembly.compile(await checked(source).arrayBuffer());
-  const url = new URL(source, import.meta.url);
-  if (url.protocol === "file:" && isNode) {
+  if (isNode && new URL(source).protocol === "file:") {
     const {readFile} = await builtin("fs/promises");
-    return WebAssembly.compile(await readFile(url));
+    return WebAssembly.compile(await readFile(new URL(source)));
   }
-  const response = checked(await fetch(url));
+  const response = checked(await fetch(source));
   // Servers that do not know the type cannot be streamed from.
   return response.headers.get("Content-Type") === "application/wasm"
     ? WebAssembly.compileStreaming(response)

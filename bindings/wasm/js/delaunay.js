@@ -3,8 +3,9 @@
 // The arrays are made when first read, and again after a change. Points are never moved, and never copied unless they change by
 // `insert` or `move`.
 
-import {absentees, checkNumber, flatCoordinates, flattened, number, pointX, pointY, takeOptions} from "./input.js";
+import {absentees, checkIndex, checkNumber, flatCoordinates, flattened, listed, number, pointX, pointY, takeOptions} from "./input.js";
 import {alongLine} from "./line.js";
+import {getters, own, shared} from "./own.js";
 import {closed, drawn, drawPolygon} from "./path.js";
 import {joinedTo, Plane, planeOf} from "./plane.js";
 import {Voronoi} from "./voronoi.js";
@@ -32,10 +33,24 @@ export class Delaunay {
     return new Delaunay(flattened(points, fx, fy, that), options);
   }
 
+  /**
+   * Of a copy of a triangulation by `JSON.parse`, `structuredClone`, a message or a spread. Its points are triangulated again, without those
+   * that were removed; its other arrays are not read.
+   */
+  static fromJSON(copy, options = {}) {
+    const flat = flatCoordinates(copy?.points);
+    const delaunay = new Delaunay([], options);
+    delaunay.points = delaunay.#known = flat === copy.points ? flat.slice() : flat;
+    const removed = listed(copy.removed ?? [], "the removed points are an array of indices");
+    delaunay.#removed = new Set(Array.from(removed, (i) => checkIndex(i, flat.length >> 1)));
+    return delaunay.update();
+  }
+
   /** Of a flat array of coordinates, which is kept and not copied. Of an odd number the last one is ignored. */
   constructor(points, options = {}) {
     this.points = points;
     this.#options = options;
+    own(this, copied);
     this.update();
   }
 
@@ -50,7 +65,10 @@ export class Delaunay {
     return this;
   }
 
-  /** Gives the module's memory back; whatever needs it then throws. It also happens when nobody refers to this object any more. */
+  /**
+   * Gives the module's memory back. Arrays are undefined then: tools that look at all properties, as React does, are not to meet errors. All else
+   * that needs the module throws. It also happens when nobody refers to this object any more.
+   */
   dispose() {
     this.#plane.dispose();
     this.#changed();
@@ -70,29 +88,38 @@ export class Delaunay {
     return (this.#arrays ??= this.#plane.arrays());
   }
 
+  /** The same, and nothing after the triangulation was disposed of. */
+  get #left() {
+    return this.#arrays ?? (this.#plane.isThere ? this.#now : undefined);
+  }
+
   /** Corners of triangles, three each. Of one or two distinct points three numbers, as in d3. */
   get triangles() {
-    const {hull, triangles} = this.#now;
+    const now = this.#left;
+    if (!now) return undefined;
+    const {hull, triangles} = now;
     if (hull.length === 0 || hull.length > 2) return triangles;
-    return (this.#now.few ??= Int32Array.of(hull[0], hull[1] ?? -1, hull[1] ?? -1));
+    return (now.few ??= Int32Array.of(hull[0], hull[1] ?? -1, hull[1] ?? -1));
   }
 
   /** For each half-edge its twin, or -1. */
   get halfedges() {
-    const {hull, halfedges} = this.#now;
+    const now = this.#left;
+    if (!now) return undefined;
+    const {hull, halfedges} = now;
     if (hull.length === 0 || hull.length > 2) return halfedges;
-    return (this.#now.none ??= Int32Array.of(-1, -1, -1));
+    return (now.none ??= Int32Array.of(-1, -1, -1));
   }
 
   /** The hull, counter-clockwise with y down; of points on a line those from end to end. */
   get hull() {
-    return this.#now.hull;
+    return this.#left?.hull;
   }
 
   /** For each point a half-edge that comes in, on the hull that from outside; -1 for what is no vertex. */
   get inedges() {
-    const now = this.#now;
-    if (now.inedges) return now.inedges;
+    const now = this.#left;
+    if (!now || now.inedges) return now?.inedges;
     const inedges = (now.inedges = new Int32Array(this.points.length >> 1).fill(-1));
     const {triangles, halfedges, hull} = now;
     for (let e = 0; e < halfedges.length; ++e) {
@@ -108,14 +135,25 @@ export class Delaunay {
 
   /** If three or more distinct points are all on a line: all points along it. Else undefined. */
   get collinear() {
-    const now = this.#now;
-    if (!("collinear" in now)) now.collinear = alongLine(now, this.points, (i) => this.#plane.place(i) >= 0 && !this.#removed.has(i));
-    return now.collinear;
+    const now = this.#left;
+    if (now && !("collinear" in now)) now.collinear = alongLine(now, this.points, (i) => this.#plane.place(i) >= 0 && !this.#removed.has(i));
+    return now?.collinear;
   }
 
   /** Pairs in a row: a point that is no vertex, and the earlier one that it equals. */
   get duplicates() {
     return (this.#now.duplicates ??= this.#plane.duplicates());
+  }
+
+  /** The points that were removed, and those that equalled them. */
+  get removed() {
+    return Uint32Array.from(this.#removed).sort();
+  }
+
+  /** The arrays as JSON has them; a coordinate that is not finite is null there. */
+  toJSON() {
+    const {points} = this;
+    return {points: Array.from({length: points.length}, (_, k) => points[k]), ...shared(this, copied)};
   }
 
   /** The neighbors of a point, around it; on a line the one before and the one after. */
@@ -190,7 +228,7 @@ export class Delaunay {
   }
 
   renderHull(context) {
-    return drawn(context, (context) => drawPolygon(context, this.#polygon(this.hull)));
+    return drawn(context, (context) => drawPolygon(context, this.#polygon(this.#now.hull)));
   }
 
   renderTriangle(i, context) {
@@ -213,11 +251,11 @@ export class Delaunay {
   }
 
   #corners(i) {
-    return Number.isInteger(i) && i >= 0 ? this.triangles.subarray(3 * i, 3 * i + 3) : [];
+    return this.#now && Number.isInteger(i) && i >= 0 ? this.triangles.subarray(3 * i, 3 * i + 3) : [];
   }
 
   hullPolygon() {
-    return closed(this.#polygon(this.hull));
+    return closed(this.#polygon(this.#now.hull));
   }
 
   trianglePolygon(i) {
@@ -266,7 +304,8 @@ export class Delaunay {
   #equalTo(i) {
     if (!this.#equals) {
       this.#equals = new Map();
-      const {duplicates} = this;
+      // Not ours, which are kept with all arrays: a change makes none.
+      const duplicates = this.#plane.duplicates();
       for (let k = 0; k < duplicates.length; k += 2) {
         const [point, vertex] = [duplicates[k], duplicates[k + 1]];
         this.#equals.get(vertex)?.push(point) ?? this.#equals.set(vertex, [point]);
@@ -313,6 +352,9 @@ export class Delaunay {
     this.#plane.check();
   }
 }
+
+/** Properties that copies have. */
+const copied = getters(Delaunay, ["halfedges", "hull", "triangles", "inedges", "collinear", "removed"]);
 
 /** For each point its rank along a line; -1 for those not there. */
 function ranked(order, count) {

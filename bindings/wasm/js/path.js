@@ -54,7 +54,10 @@ export function drawn(context, draw) {
 /** Draws a closed polygon of points, given without the first one repeated. */
 export function drawPolygon(context, points) {
   points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
-  if (points.length) context.closePath();
+  if (!points.length) return;
+  // Of contexts that d3's types ask for, some only draw lines.
+  if (context.closePath) context.closePath();
+  else context.lineTo(...points[0]);
 }
 
 /** The same points as a ring, whose last point is the first one again. */

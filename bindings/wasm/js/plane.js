@@ -76,6 +76,11 @@ export class Plane {
     if (!engine.isLost) engine.exports.forget(number);
   }
 
+  /** Whether it was not disposed of. */
+  get isThere() {
+    return this.#held !== undefined;
+  }
+
   get engine() {
     if (!this.#held) throw new DeloneError("disposed", "the triangulation was disposed of");
     return this.#held.engine;

@@ -3,6 +3,7 @@
 
 import {Cells} from "./cells.js";
 import {checkBounds, number} from "./input.js";
+import {getters, own, shared} from "./own.js";
 import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
 
@@ -15,6 +16,7 @@ export class Voronoi {
   /** Or by `delaunay.voronoi(bounds)`. */
   constructor(delaunay, bounds = [0, 0, 960, 500]) {
     this.delaunay = delaunay;
+    own(this, copied);
     [this.xmin, this.ymin, this.xmax, this.ymax] = checkBounds(bounds);
   }
 
@@ -49,16 +51,20 @@ export class Voronoi {
     return (now.cells = isFlat ? new Cells([], []) : this.#plane.cells(this.#bounds));
   }
 
-  /** The centers of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
+  /** The centers of the triangles' circles, two numbers each; infinite beyond the range of numbers. Undefined as arrays of a triangulation. */
   get circumcenters() {
+    return this.#plane.isThere ? this.#centers : undefined;
+  }
+
+  get #centers() {
     return (this.#now.circumcenters ??= this.#plane.circumcenters());
   }
 
   /** For each point four numbers: the directions in which the first and the last edge of its cell leave, if it is on the hull. */
   get vectors() {
     const now = this.#now;
-    if (now.vectors) return now.vectors;
     const {hull, points} = this.delaunay;
+    if (!hull || now.vectors) return now.vectors;
     const vectors = (now.vectors = new Float64Array(2 * (points.length & -2)));
     for (let k = 0; k < hull.length && hull.length > 1; ++k) {
       const [p, q] = [hull[(k || hull.length) - 1], hull[k]];
@@ -123,7 +129,7 @@ export class Voronoi {
 
   /** Draws the edges between cells, each once. */
   render(context) {
-    if (this.delaunay.hull.length <= 1) return null;
+    if (this.#plane.engine && this.delaunay.hull.length <= 1) return null;
     return drawn(context, (context) => {
       const count = this.delaunay.points.length >> 1;
       const isOnBounds = ([x, y], [u, v]) =>
@@ -146,6 +152,12 @@ export class Voronoi {
   }
 
   // What d3 has not.
+
+  /** As JSON has it; an infinite circumcenter is null there. */
+  toJSON() {
+    const {delaunay, xmin, ymin, xmax, ymax} = this;
+    return {delaunay, xmin, ymin, xmax, ymax, ...shared(this, copied)};
+  }
 
   get #measures() {
     return (this.#now.measures ??= this.#plane.measures(this.#bounds, this.delaunay.points));
@@ -174,6 +186,9 @@ export class Voronoi {
     return Array.from({length: this.delaunay.points.length >> 1}, (_, i) => cells.rings(plane.place(i)));
   }
 }
+
+/** Properties that copies have. */
+const copied = getters(Voronoi, ["circumcenters", "vectors"]);
 
 const after = (ring, k) => ring[(k + 1) % ring.length];
 

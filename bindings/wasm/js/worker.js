@@ -1,11 +1,38 @@
 // Triangulates off the main thread. Arrays are transferred, not copied, but for the points, which are yours.
 
+import packed from "../dist/inline.js";
+import text from "../dist/worker-text.js";
 import {DeloneError} from "./errors.js";
 import {flatCoordinates} from "./input.js";
 import {builtin, isNode} from "./node.js";
 
 /** Whether a buffer can be given away: one that is not shared. */
 const isMovable = (buffer) => buffer instanceof ArrayBuffer;
+
+/** The address of the thread's script, made from its text when the first thread starts. */
+let address;
+
+/** Starts a thread: of its text, which no bundler has to know of, or in browsers of a file. */
+async function start(script) {
+  if (isNode) {
+    const {Worker} = await builtin("worker_threads");
+    return new Worker(`${text}deloneWorker.serve(require("node:worker_threads").parentPort);`, {eval: true, execArgv: []});
+  }
+  if (typeof Worker === "undefined") throw new Error("there are no workers here");
+  if (script !== undefined) return new Worker(script);
+  address ??= URL.createObjectURL(new Blob([`${text}deloneWorker.serve(self);`], {type: "text/javascript"}));
+  return new Worker(address);
+}
+
+/** Why there is no thread. Browsers do not say it themselves. */
+function refused(script, cause) {
+  const reason = cause?.message ? ` (${cause.message})` : "";
+  const help =
+    script === undefined
+      ? "a content security policy has to allow it by `worker-src blob:`; or give the address of the file delone/delone-worker.js, new DelaunayWorker({script})"
+      : `its script was to come from ${script}`;
+  return Object.assign(new DeloneError("worker", `the worker did not start${reason}: ${help}`), {cause});
+}
 
 /** A thread that triangulates. Tasks wait for each other. */
 export class DelaunayWorker {
@@ -15,17 +42,19 @@ export class DelaunayWorker {
   /** Why nothing more can be asked, once that is so. */
   #end;
 
-  constructor() {
-    this.#thread = isNode
-      ? builtin("worker_threads").then(({Worker}) => new Worker(new URL("./worker-thread.js", import.meta.url), {execArgv: []}))
-      : Promise.resolve(new Worker(new URL("./worker-thread.js", import.meta.url), {type: "module"}));
-    this.#thread.then((thread) => {
+  /** `script` is the address of delone/delone-worker.js, for pages whose policy refuses other scripts. Node has no need of it. */
+  constructor(options) {
+    const script = options?.script;
+    const hearAll = (thread) => {
       const hear = (event, handle) => (isNode ? thread.on(event, handle) : thread.addEventListener(event, handle));
       hear("message", (message) => this.#finish(isNode ? message : message.data));
       hear("messageerror", () => this.#finishAll(new DeloneError("internal", "an answer of the worker cannot be read")));
-      hear("error", (error) => this.#finishAll(new DeloneError("internal", `the worker failed: ${error.message}`)));
+      hear("error", (error) => this.#finishAll(error.message ? new DeloneError("internal", `the worker failed: ${error.message}`) : refused(script)));
+      thread.postMessage({packed});
       this.#hold(thread);
-    });
+      return thread;
+    };
+    this.#thread = start(script).then(hearAll).catch((cause) => this.#finishAll(refused(script, cause)));
   }
 
   /** A program of Node may end while the thread has nothing to do. */
@@ -78,6 +107,6 @@ export class DelaunayWorker {
   /** Ends the thread; tasks that wait are rejected. */
   async terminate() {
     this.#finishAll(new DeloneError("disposed", "the worker was terminated"));
-    await (await this.#thread).terminate();
+    await (await this.#thread)?.terminate();
   }
 }

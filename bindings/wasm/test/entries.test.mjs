@@ -118,6 +118,21 @@ test("a worker that is ended while its answer is under way", async () => {
   await asked;
 });
 
+test("a worker that cannot start says what would help", async () => {
+  // As in a browser whose policy refuses it: there it is an event without a message, or an error at once.
+  const program = (worker) => `
+    delete globalThis.process; globalThis.Worker = ${worker};
+    const {DelaunayWorker} = await import("delone/worker");
+    const worker = new DelaunayWorker();
+    await worker.triangulate([0, 0]).catch(({code, message}) => console.log(code, message));
+    await worker.triangulate([0, 0]).catch(({code}) => console.log(code));
+    await worker.terminate();`;
+  const silent = "class extends EventTarget { postMessage() { setTimeout(() => this.dispatchEvent(new Event('error'))) } terminate() {} }";
+  for (const worker of ["undefined", silent, "class { constructor() { throw new Error('refused') } }"]) {
+    assert.match(node(program(worker)), /^worker the worker did not start.*worker-src blob:.*script.*\nworker$/, worker);
+  }
+});
+
 test("a program with an idle worker ends", () => {
   assert.equal(node('import {DelaunayWorker} from "delone/worker"; console.log((await new DelaunayWorker().triangulate([0, 0, 1, 0, 0, 1])).hull.length)'), "3");
 });
@@ -131,10 +146,9 @@ test("bundles for browsers, of every entry; the default one runs", async () => {
     for (const entry of ["delone/async", "delone/full", "delone/worker"]) await bundle(`export * from "${entry}";`, `${entry}.mjs`);
     await bundle('import {Delaunay} from "delone"; console.log(Delaunay.from([[0, 0], [1, 0], [0, 1]]).voronoi().cellPolygon(0).length);', "bundle.mjs");
     assert.match(execFileSync(process.execPath, [join(folder, "bundle.mjs")], {encoding: "utf8"}), /^[4-6]\n$/);
-    // As the README has it: the worker's script beside the program.
+    // For Node: the worker's script is inside of the program.
     const options = {bundle: true, format: "esm", platform: "node", outdir: folder, entryNames: "[name]", logLevel: "silent"};
     writeFileSync(join(folder, "package.json"), '{"type": "module"}');
-    await build({...options, entryPoints: [`${root}js/worker-thread.js`]});
     const program = 'import {DelaunayWorker} from "delone/worker"; console.log((await new DelaunayWorker().triangulate([0, 0, 1, 0, 0, 1])).hull.length);';
     await build({...options, stdin: {contents: program, resolveDir: root}});
     assert.equal(execFileSync(process.execPath, [join(folder, "stdin.js")], {encoding: "utf8"}), "3\n");

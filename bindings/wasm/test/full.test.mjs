@@ -54,6 +54,29 @@ for (const [name, start] of Object.entries({uniform: uniform(60), grid: sets["a 
   });
 }
 
+test("a change costs what it changes, whatever strategy is at work", () => {
+  const d = new Delaunay(uniform(50_000));
+  const r = random(3);
+  const median = (change) => {
+    const times = Array.from({length: 15}, () => {
+      const start = performance.now();
+      for (let k = 0; k < 20; ++k) change();
+      return performance.now() - start;
+    });
+    return times.sort((a, b) => a - b)[7];
+  };
+  d.remove(40_000);
+  for (const strategy of ["tree", "walk", "jump-and-walk", "hierarchy", "history"]) {
+    d.locate(r(), r(), {strategy});
+    d.move(7, r(), r());
+    // Anew for each, a tree of hints would take some hundred times as long as an insertion.
+    const [insert, move] = [() => d.insert(r(), r()), () => d.move(7, r(), r())].map(median);
+    assert.ok(move < 20 * insert, `${strategy}: ${move} and ${insert} ms`);
+  }
+  d.check();
+  d.dispose();
+});
+
 test("a diagram follows changes", () => {
   const d = new Delaunay([0, 0, 4, 0]);
   const v = d.voronoi([-2, -2, 6, 2]);

@@ -131,14 +131,18 @@ test("a million equal points", () => {
   d.dispose();
 });
 
-test("after dispose everything that needs the module is an error, and a second dispose is none", () => {
+test("after dispose arrays are gone, all else that needs the module is an error, and a second dispose is none", () => {
   const d = new Delaunay(sets.uniform);
   const v = d.voronoi();
   d.dispose();
   d.dispose();
-  const uses = [() => d.find(0, 0), () => d.triangles, () => d.hull, () => [...d.neighbors(0)], () => d.nearest(0, 0), () => v.cellPolygon(0), () => v.contains(0, 0, 0), () => v.areas(), () => v.render()];
+  const uses = [() => d.find(0, 0), () => d.hullPolygon(), () => d.trianglePolygon(0), () => d.render(), () => d.duplicates, () => [...d.neighbors(0)], () => d.nearest(0, 0), () => v.cellPolygon(0), () => v.contains(0, 0, 0), () => v.areas(), () => v.render()];
   for (const use of uses) fails("disposed", undefined, use);
+  // Tools read all properties, whatever they are.
+  for (const name of ["triangles", "halfedges", "hull", "inedges", "collinear"]) assert.equal(d[name], undefined, name);
+  for (const name of ["circumcenters", "vectors"]) assert.equal(v[name], undefined, name);
   d.update();
   prove(d, sets.uniform);
+  assert.equal(v.circumcenters.length, (2 * d.triangles.length) / 3);
   if (Symbol.dispose) assert.equal(d[Symbol.dispose], d.dispose);
 });

@@ -9,7 +9,7 @@ export interface Options {
 export type ErrorCode =
   | "bounds" | "constraints-end" | "disposed" | "flaw" | "input" | "internal" | "length" | "lost" | "memory"
   | "no-length" | "no-such-point" | "no-such-segment" | "not-a-number" | "not-finite" | "not-ready" | "occupied"
-  | "range" | "region" | "segments-cross" | "too-many-points" | "unavailable" | "values";
+  | "range" | "region" | "segments-cross" | "too-many-points" | "unavailable" | "values" | "worker";
 
 /** Everything that this package throws. */
 export class DeloneError extends Error {
@@ -70,6 +70,8 @@ export class Delaunay<P = Delaunay.Point> {
     getY: Delaunay.GetCoordinate<P, ArrayLike<P> | Iterable<P>>,
     options: Options,
   ): Delaunay<P>;
+  /** Triangulates the points of a copy: of what JSON, `structuredClone`, a message or a spread made of a triangulation. Points removed stay so. */
+  static fromJSON<P = Delaunay.Point>(copy: Delaunay.Copy | Delaunay.Json, options?: Options): Delaunay<P>;
   constructor(points: Coordinates, options?: Options);
 
   points: Coordinates;
@@ -81,23 +83,30 @@ export class Delaunay<P = Delaunay.Point> {
   readonly collinear?: Int32Array;
   /** Pairs in a row: a point that is no vertex, and the earlier one that it equals. */
   readonly duplicates: Uint32Array;
+  /** The points that were removed, and those that equalled them. */
+  readonly removed: Uint32Array;
   /** Counts changes. */
   readonly version: number;
 
   /** The nearest point; -1 if there is none. `i` is accepted for d3's sake: no start is needed. */
   find(x: number, y: number, i?: number): number;
   neighbors(i: number): IterableIterator<number>;
-  render(): string | null;
-  render(context: Delaunay.MoveContext & Delaunay.LineContext & Delaunay.ClosableContext): void;
-  renderHull(): string | null;
-  renderHull(context: Delaunay.MoveContext & Delaunay.LineContext & Delaunay.ClosableContext): void;
-  renderTriangle(i: number): string | null;
+  // Without a context the text of a path. As in d3 there is none, at run time `null`, where there is nothing to draw: no point for `render`, `renderHull`
+  // and `hullPolygon`, no such triangle for `renderTriangle` and `trianglePolygon`. Types are those of @types/d3-delaunay, which leave it out.
+  render(): string;
+  render(context: null | undefined): string;
+  render(context: Delaunay.MoveContext & Delaunay.LineContext): void;
+  renderHull(): string;
+  renderHull(context: null | undefined): string;
+  renderHull(context: Delaunay.MoveContext & Delaunay.LineContext): void;
+  renderTriangle(i: number): string;
+  renderTriangle(i: number, context: null | undefined): string;
   renderTriangle(i: number, context: Delaunay.MoveContext & Delaunay.LineContext & Delaunay.ClosableContext): void;
-  renderPoints(): string | null;
-  renderPoints(radius: number): string | null;
-  renderPoints(context: undefined | null, radius: number): string | null;
+  renderPoints(): string;
+  renderPoints(radius: number): string;
+  renderPoints(context: null | undefined, radius?: number): string;
   renderPoints(context: Delaunay.MoveContext & Delaunay.ArcContext, radius?: number): void;
-  hullPolygon(): Delaunay.Polygon | null;
+  hullPolygon(): Delaunay.Polygon;
   trianglePolygon(i: number): Delaunay.Triangle;
   trianglePolygons(): IterableIterator<Delaunay.Triangle>;
   update(): this;
@@ -117,8 +126,10 @@ export class Delaunay<P = Delaunay.Point> {
   move(i: number, x: number, y: number): void;
   /** Full module: proves that the triangulation is the canonical one, or throws. */
   check(): void;
-  /** Gives memory back; what needs it then throws. */
+  /** Gives memory back: arrays are undefined then, and what needs the module throws. */
   dispose(): void;
+  /** What `JSON.stringify` writes: the points, and plain arrays of all that a copy has. */
+  toJSON(): Delaunay.Json;
 }
 
 export namespace Delaunay {
@@ -126,6 +137,26 @@ export namespace Delaunay {
   type Triangle = Point[];
   type Polygon = Point[];
   type Bounds = [number, number, number, number];
+  /** What `structuredClone`, `postMessage` and a spread make of a triangulation. */
+  interface Copy {
+    points: Coordinates;
+    triangles: Uint32Array;
+    halfedges: Int32Array;
+    hull: Uint32Array;
+    inedges: Int32Array;
+    collinear?: Int32Array;
+    removed: Uint32Array;
+  }
+  /** The same as JSON has it; a coordinate that is not finite becomes null in its text. */
+  interface Json {
+    points: (number | null)[];
+    triangles: number[];
+    halfedges: number[];
+    hull: number[];
+    inedges: number[];
+    collinear?: number[];
+    removed: number[];
+  }
   type GetCoordinate<P, PS> = (point: P, i: number, points: PS) => number;
 
   interface RectContext {
@@ -158,14 +189,18 @@ export class Voronoi<P = Delaunay.Point> {
 
   contains(i: number, x: number, y: number): boolean;
   neighbors(i: number): IterableIterator<number>;
-  render(): string | null;
+  // At run time `null`, as in d3, where there is nothing: of one point for `render`, of no cell for `cellPolygon`; `undefined` for `renderCell`.
+  render(): string;
+  render(context: null | undefined): string;
   render(context: Delaunay.MoveContext & Delaunay.LineContext): void;
   renderBounds(): string;
+  renderBounds(context: null | undefined): string;
   renderBounds(context: Delaunay.RectContext): void;
-  renderCell(i: number): string | undefined;
+  renderCell(i: number): string;
+  renderCell(i: number, context: null | undefined): string;
   renderCell(i: number, context: Delaunay.MoveContext & Delaunay.LineContext & Delaunay.ClosableContext): void;
   cellPolygons(): IterableIterator<Delaunay.Polygon & {index: number}>;
-  cellPolygon(i: number): Delaunay.Polygon | null;
+  cellPolygon(i: number): Delaunay.Polygon;
   update(): this;
 
   /** The areas of all cells. */
@@ -174,6 +209,8 @@ export class Voronoi<P = Delaunay.Point> {
   relax(): Float64Array;
   /** Full module: cells clipped to a polygon of rings; for each point an array of closed rings. */
   clip(polygon: Iterable<Iterable<ArrayLike<number>>>): Delaunay.Polygon[][];
+  /** What `JSON.stringify` writes. */
+  toJSON(): {delaunay: Delaunay<P>; xmin: number; ymin: number; xmax: number; ymax: number; circumcenters: number[]; vectors: number[]};
 }
 
 export default Delaunay;

@@ -21,9 +21,9 @@ const voronoi: Voronoi<City> = delaunay.voronoi([0, 0, 960, 500]);
 delaunay.render(canvas);
 voronoi.renderCell(0, canvas);
 voronoi.renderBounds(canvas);
-const path: string | undefined = voronoi.renderCell(0);
+const path: string = voronoi.renderCell(0) + voronoi.render(undefined) + delaunay.render() + delaunay.renderPoints(null) + delaunay.renderPoints(3);
 for (const cell of voronoi.cellPolygons()) cell.index.toFixed();
-const [x, y]: [number, number] = voronoi.cellPolygon(0)![0];
+const [x, y]: [number, number] = voronoi.cellPolygon(0)[0];
 const line: Int32Array | undefined = points.collinear;
 const moved: Float64Array = voronoi.relax();
 const kind: "triangle" | "edge" | "vertex" | "outside" | "none" = flat.locate(x, y, {strategy: "walk"}).kind;
@@ -35,8 +35,12 @@ const c: Constrained = Constrained.polygon([[[0, 0], [1, 0], [0, 1]]], {fill: "n
 const values: Float64Array = interpolate(delaunay, [1, 2], c.points, {method: "sibson", outside: "hull"});
 contours(points, values, [1, 2])[0].level.toFixed();
 const ground: Float64Array = readLas(new ArrayBuffer(0), {classes: [2]}).heights;
+const copy: Delaunay.Copy = structuredClone(delaunay);
+const copies: Delaunay<City>[] = [copy, {...delaunay}, delaunay.toJSON()].map((c) => Delaunay.fromJSON<City>(c, {skipInvalid: true}));
+const gone: Uint32Array = copies[0].removed;
+new DelaunayWorker({script: new URL("delone-worker.js", "https://example.org")}).terminate();
 new DelaunayWorker().triangulate([0, 0], {transfer: true}).then(({triangles}) => triangles.length);
-if (new DeloneError("memory", "").code === "memory") console.log(path, line, moved, kind, near, coords, given, ready, ground);
+if (new DeloneError("memory", "").code === "memory") console.log(path, line, moved, kind, near, coords, given, ready, ground, gone);
 
 // @ts-expect-error an array of points is no flat array
 new Delaunay([[0, 0]]);
