@@ -75,6 +75,21 @@ test("a table with names, latitude before longitude, becomes districts with its 
   assert.match(await page.textContent("#bench-code"), /^delone triangulate addresses\.csv --columns id,lat -o/);
 });
 
+test("cells are cut by the polygon of a second file", async (t) => {
+  const page = await open(t);
+  const region = '{"type":"Polygon","coordinates":[[[0,0],[10,0],[5,9],[0,0]]]}';
+  assert.match(await give(page, {"points.csv": "x,y\n2,1\n8,1\n5,6\n5,3\n", "region.geojson": region}), /^points\.csv: 4 points/);
+  await page.check("#bench-view-cells");
+  assert.match(await settled(page), /Voronoi cells: 4 cells/);
+  assert.match(await page.textContent("#bench-code"), /voronoi points\.csv --clip region\.geojson/);
+  const {bytes} = await save(page, "cells", "geojson");
+  const areas = JSON.parse(bytes).features.map(({properties}) => properties.area);
+  assert.ok(Math.abs(areas.reduce((sum, area) => sum + area, 0) - 45) < 1e-9);
+  await page.click("#bench-reading summary");
+  await page.selectOption("#bench-region", "");
+  assert.match(await settled(page), /^points\.csv, region\.geojson: [78] points/);
+});
+
 test("contours of a laser scan, of its ground alone", async (t) => {
   const page = await open(t);
   await page.setInputFiles("#bench-file", data("autzen_trim.laz"));

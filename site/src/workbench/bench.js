@@ -4,7 +4,7 @@ import formats from "formats:table";
 import {Engine} from "./engine.js";
 import {keep, kept} from "./keep.js";
 import {Panels} from "./panels.js";
-import {blobsOf, fileName, inputsOf, nameOfText, samples} from "./sources.js";
+import {blobsOf, fileName, inputsOf, nameOfText, regionOf, samples} from "./sources.js";
 import {WorkStage} from "./stage.js";
 import {Past, empty, fromHash} from "./state.js";
 import {tellOf} from "./tell.js";
@@ -129,7 +129,10 @@ export function workbench(section) {
       await engine.open({});
       return (await engine.run(words)).written[words.at(-1)];
     });
-    const names = inputsOf(Object.keys(blobs), formats.inputs);
+    const readable = inputsOf(Object.keys(blobs), formats.inputs);
+    if (!readable.includes(read.region)) read.region = "";
+    const names = readable.filter((name) => name !== read.region);
+    if (!names.length) throw new Error("the region is the only file: there are no points");
     await engine.open(blobs);
     const headings = await panels.preview(names[0], blobs[names[0]]);
     say(`${names.join(", ")}: triangulating …`);
@@ -139,7 +142,7 @@ export function workbench(section) {
     const isGeographic = isDegrees(names[0], columns);
     if (!stats.points) throw new Error(`${names.join(", ")}: there are no points in it`);
     const about = await stage.begin(made.written[`${STAGE}.ply`], isGeographic);
-    loaded = {key: JSON.stringify([source, read]), names, blobs, stats, about, made: new Map(), notes: made.notes, told: made.errors.find((line) => /^\d/.test(line)) ?? "", generated, isGeographic};
+    loaded = {key: JSON.stringify([source, read]), names, readable, blobs, stats, about, made: new Map(), notes: made.notes, told: made.errors.find((line) => /^\d/.test(line)) ?? "", generated, isGeographic};
     // While the program works, points have no more to tell.
     loaded.row = (i) => (busySince ? [] : engine.row(names[0], i).catch(() => []));
     const byName = ["x", "y", "z"].filter((role) => headings.includes(role));
@@ -286,7 +289,8 @@ export function workbench(section) {
     if (!given.length) return say("That was no file.", "error");
     files = Object.fromEntries(given.map((file) => [fileName(file.name), file]));
     keep(files);
-    return begin({kind: "files", names: Object.keys(files), turn: ++turn});
+    const names = Object.keys(files);
+    return begin({kind: "files", names, turn: ++turn}, {read: {...empty().read, region: regionOf(names)}});
   }
 
   of("file").addEventListener("change", () => {

@@ -95,14 +95,17 @@ export class Panels {
       of(`options-${name}`).hidden = !state.views[name];
       for (const {key, value, slider} of views[name].options) {
         const field = of(`${name}-${key}`);
-        if (field !== document.activeElement) field.value = state.views[name]?.[key] ?? value;
+        if (field !== document.activeElement) field.value = state.views[name]?.[key] ?? (key === "clip" && state.read.region ? "region" : value);
         if (slider && field.value) of(`${name}-${key}-slider`).value = Math.log10(Number(field.value) / this.#extent);
       }
     }
     of("fill").value = state.fill;
     of("fill").disabled = !loaded?.about.heights;
     of("dots").checked = state.dots;
-    for (const key of ["classes", "epsg", "crossings"]) if (of(key) !== document.activeElement) of(key).value = state.read[key];
+    const files = loaded?.readable ?? [];
+    of("region-all").hidden = files.length < 2;
+    of("region").replaceChildren(make("option", {value: "", textContent: "none"}), ...files.map((name) => make("option", {value: name, textContent: name})));
+    for (const key of ["classes", "epsg", "crossings", "region"]) if (of(key) !== document.activeElement) of(key).value = state.read[key];
     for (const key of ["png", "save", "save-view", "save-format", "copy"]) of(key).disabled = !loaded;
     of("empty").hidden = state.source.kind !== "none";
     const shown = Object.keys(state.views);
@@ -165,7 +168,7 @@ export class Panels {
     const isWhole = columns[0] && columns[1];
     this.#actions.change((state) => {
       if (isWhole || !columns.some(Boolean)) state.read.columns = columns.filter(Boolean).join(",");
-      for (const key of ["classes", "epsg", "crossings"]) state.read[key] = of(key).value.trim();
+      for (const key of ["classes", "epsg", "crossings", "region"]) state.read[key] = of(key).value.trim();
     });
   }
 

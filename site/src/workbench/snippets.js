@@ -34,7 +34,10 @@ function pythonReading(name, columns, isLines, classes) {
 
 const python = {
   triangles: (_, isLines) => (isLines ? ["meshes = delone.triangulate_polygons(frame.geometry)"] : ["triangles = delone.Delaunay(points).simplices"]),
-  cells: ({clip}) => [`cells = delone.Voronoi(points).cells(${clip === "hull" ? "points[delone.ConvexHull(points).vertices]" : ""})`],
+  cells: ({clip}, _, {region}) =>
+    clip === "region"
+      ? ["import geopandas", `area = geopandas.read_file(${text(region)}).union_all()`, "cells = delone.Voronoi(points).cells([np.array(ring.coords) for ring in [area.exterior, *area.interiors]])"]
+      : [`cells = delone.Voronoi(points).cells(${clip === "hull" ? "points[delone.ConvexHull(points).vertices]" : ""})`],
   hull: () => ["corners = delone.ConvexHull(points).vertices"],
   alpha: ({radius}) => ["shape = delone.AlphaComplex(points)", `outline = shape.outline(${radius ? `${radius} ** 2` : "shape.optimal_alpha()"})`],
   contours: ({interval}) => [`lines = delone.contours(points, z, interval=${interval})`],
@@ -48,7 +51,8 @@ const python = {
 const javascript = {
   triangles: () => ["const {triangles} = d;"],
   cells: ({clip}) =>
-    clip === "hull" ? ["const cells = d.voronoi(bounds).clip([d.hullPolygon()]);"] : ["const cells = [...d.voronoi(bounds).cellPolygons()];"],
+    clip === "region" ? ["const cells = d.voronoi(bounds).clip(rings); // of your region"]
+    : clip === "hull" ? ["const cells = d.voronoi(bounds).clip([d.hullPolygon()]);"] : ["const cells = [...d.voronoi(bounds).cellPolygons()];"],
   hull: () => ["const {hull} = d;"],
   contours: () => ["const lines = contours(d, heights, levels);"],
 };
@@ -72,19 +76,21 @@ export function snippets(state, {names, columns, isLines, generated, about}) {
     return ["delone", ...words, "-o", outputOf(name, outputs[views[name].format], names)].map(quoted).join(" ");
   });
   const make = generated ? [`delone ${generated.map(quoted).join(" ")}`] : [];
-  const optionsOf = (name) => ({...Object.fromEntries(views[name].options.map(({key, value}) => [key, value])), ...state.views[name]});
+  const usual = state.read.region ? {clip: "region"} : {};
+  const optionsOf = (name) => ({...Object.fromEntries(views[name].options.map(({key, value}) => [key, value])), ...usual, ...state.views[name]});
   const read = names.length === 1 ? pythonReading(names[0], columns, isLines, state.read.classes) : ["points = ...  # an array of shape (n, 2)"];
   const known = shown.filter((name) => javascript[name]);
   const others = shown.filter((name) => !javascript[name]).map((name) => `// ${views[name].title}: by the program or Python.`);
-  const isFull = known.includes("contours") || (known.includes("cells") && optionsOf("cells").clip === "hull");
+  const isFull = known.includes("contours") || (known.includes("cells") && optionsOf("cells").clip !== "box");
   const given = ["const points = [[0, 0], [1, 0], [0, 1]]; // yours"];
   if (known.includes("cells")) given.push(`const bounds = [${about.box.join(", ")}];`);
+  if (known.includes("cells") && optionsOf("cells").clip === "region") given.push("const rings = [[[0, 0], [1, 0], [1, 1]]]; // yours");
   if (known.includes("contours") && about.heights) {
     given.push("const heights = [0, 1, 2]; // yours, one a point", `const levels = ${levelsOf(Number(optionsOf("contours").interval), about.heights)};`);
   }
   return {
     Command: [...make, ...commands],
-    Python: ["import numpy as np", "import delone", ...read, ...shown.flatMap((name) => python[name](optionsOf(name), isLines))],
+    Python: ["import numpy as np", "import delone", ...read, ...shown.flatMap((name) => python[name](optionsOf(name), isLines, state.read))],
     JavaScript: [
       `import {${known.includes("contours") ? "Delaunay, contours" : "Delaunay"}} from "delone${isFull ? "/full" : ""}";`,
       ...given,

@@ -83,6 +83,13 @@ export async function blobsOf(source, files, generate) {
   return Object.fromEntries(source.names.map((name) => [name, files[name]]));
 }
 
+/** A file with polygons that is beside files of points: the region of their cells. Nothing if there is none, or if it may be another one. */
+export function regionOf(names) {
+  const polygons = names.filter((name) => /\.(geo)?json(\.gz)?$|\.shp$|\.fgb$/i.test(name));
+  const points = names.filter((name) => /\.(csv|tsv|txt|xyz|las|laz|npy|gpx)(\.gz)?$/i.test(name));
+  return polygons.length === 1 && points.length ? polygons[0] : "";
+}
+
 /** Names that the program is given: files that it reads, without those that only go along (`.dbf`, `.prj`). */
 export function inputsOf(names, readable) {
   const isReadable = (name) => readable.includes(name.toLowerCase().replace(/\.gz$/, "").split(".").at(-1));

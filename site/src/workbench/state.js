@@ -4,7 +4,7 @@ import {views} from "./views.js";
 
 export const empty = () => ({
   source: {kind: "none"},
-  read: {columns: "", classes: "", epsg: "", crossings: ""},
+  read: {columns: "", classes: "", epsg: "", crossings: "", region: ""},
   views: {triangles: {}},
   fill: "none",
   dots: true,

@@ -1,5 +1,8 @@
 // The views of the workbench: each is a command of the program with options, for the stage and for files to take away.
 
+/** The choice of cells that are cut by the polygons of a file. */
+const REGION = "region";
+
 /** Options by kind: a choice, a number, or a slider over powers of ten. */
 const number = (key, label, flag, more = {}) => ({key, label, flag, kind: "number", value: "", ...more});
 const choice = (key, label, flag, choices, value = choices[0]) => ({key, label, flag, kind: "choice", choices, value});
@@ -22,7 +25,7 @@ export const views = {
     command: "voronoi",
     format: "wkb",
     style: {color: "voronoi", wide: 1, alpha: 1},
-    options: [choice("clip", "up to", "--clip", ["box", "hull"])],
+    options: [choice("clip", "up to", "--clip", ["box", "hull", REGION])],
   },
   hull: {
     title: "Hull",
@@ -79,7 +82,8 @@ export function reading({columns, classes, epsg}) {
 export function wordsOf(name, given, names, read) {
   const {command, options, otherwise = [], crossings} = views[name];
   const set = options.flatMap(({key, flag, value}) => {
-    const now = given[key] ?? value;
+    const now = given[key] ?? (key === "clip" && read.region ? REGION : value);
+    if (now === REGION) return [flag, read.region || options[0].value];
     return now === "" ? [] : [flag, String(now)];
   });
   const split = crossings && read.crossings ? ["--crossings", read.crossings] : [];
