@@ -4,8 +4,10 @@ use std::io::Write;
 
 use delone::Triangulation;
 
-use super::view::View;
-use super::{Layers, Options, Sketch, check_size, png};
+use super::legend::Legend;
+use super::relief::Paint;
+use super::view::{Frame, View};
+use super::{Layers, Look, Options, Sketch, check_size, png};
 use crate::{Error, Mesh};
 
 /// An animated PNG being written, picture by picture.
@@ -39,7 +41,7 @@ impl<W: Write> Animation<W> {
         options: Options,
     ) -> Result<Self, Error> {
         check_size(options.size)?;
-        let view = View::around(window.into_iter(), options.size);
+        let view = View::around(window.into_iter(), &Frame::new(options.size, None));
         let mut encoder = ::png::Encoder::new(out, view.width, view.height);
         encoder.set_color(::png::ColorType::Rgb);
         encoder.set_depth(::png::BitDepth::Eight);
@@ -58,11 +60,14 @@ impl<W: Write> Animation<W> {
     /// When there are more than were said, and when writing fails.
     pub fn add(&mut self, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Result<(), Error> {
         let (view, layers) = *self.style.get_or_insert_with(|| {
-            let view = View::of(mesh, &self.options);
+            let view = View::of(mesh, &self.options, &Frame::new(self.options.size, None));
             (view, Layers::choose(mesh, &view, &self.options))
         });
         debug_assert_eq!([view.width, view.height], self.size);
-        let canvas = png::draw(mesh, &view, layers, &self.options)?;
+        let paint = Paint::of(mesh, self.options.angles);
+        let legend = if layers.fill { Legend::of(mesh, &paint, &self.options) } else { Legend::None };
+        let look = Look { view: &view, layers, options: &self.options, paint: &paint, legend: &legend };
+        let canvas = png::draw(mesh, &look)?;
         self.write(canvas.colors())
     }
 
@@ -72,7 +77,7 @@ impl<W: Write> Animation<W> {
     /// As [`Self::add`].
     pub fn sketch(&mut self, sketch: &Sketch) -> Result<(), Error> {
         let window = self.options.window.into_iter().flatten();
-        let canvas = sketch.draw(&View::around(window, self.options.size))?;
+        let canvas = sketch.draw(&View::around(window, &Frame::new(self.options.size, None)))?;
         self.write(canvas.colors())
     }
 

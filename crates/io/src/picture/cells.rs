@@ -5,10 +5,11 @@ use std::io::Write;
 use delone::Ring;
 
 use super::color::{DENSITY, Density, EDGE, PAPER, POINT, Rgb};
+use super::legend::Legend;
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
-use super::view::View;
+use super::view::{Frame, View};
 use crate::diagram::Tiles;
 use crate::{Error, Format};
 
@@ -37,7 +38,7 @@ pub(crate) fn write(
 
 impl Style {
     fn of(diagram: &impl Tiles, size: u32) -> Self {
-        let view = View::around(diagram.corners(), size);
+        let view = View::around(diagram.corners(), &Frame::new(size, diagram.crs()));
         let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v)).collect();
         areas.sort_by(f64::total_cmp);
         // A few outliers must not take all of the colors.
@@ -63,6 +64,10 @@ impl Style {
     fn dot_radius(&self) -> Option<f64> {
         (self.spacing > 12.0).then(|| (self.spacing / 12.0).clamp(1.0, 3.5))
     }
+}
+
+fn legend() -> Legend {
+    Legend::words(&DENSITY, ["large cells", "", "small"])
 }
 
 /// The sites that are on what is drawn.
@@ -95,8 +100,7 @@ fn png(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> Result<(), E
             canvas.dots(positions, radius, color, 255);
         }
     }
-    canvas.legend(view, &DENSITY, "large cells", "small");
-    canvas.scale(view);
+    canvas.strip(&legend().pieces(view));
     canvas.encode(out)
 }
 
@@ -129,6 +133,6 @@ fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Res
             writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{color}"/>"#)?;
         }
     }
-    super::svg::scale(out, view)?;
+    super::svg::strip(out, &legend().pieces(view))?;
     writeln!(out, "</svg>")
 }

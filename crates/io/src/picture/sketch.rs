@@ -2,11 +2,12 @@
 
 use std::io::Write;
 
-use super::color::{EDGE, INK, LINK, POINT, Rgb, numbered};
+use super::color::{EDGE, INK, LINK, POINT, Rgb};
+use super::palette::region_color;
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::{hex, open};
-use super::view::View;
+use super::view::{Frame, View};
 use super::{check_size, color};
 use crate::{Error, Format};
 
@@ -92,7 +93,7 @@ impl Sketch {
                 Mark::Area(corners, tone) => {
                     canvas.fill(&ring(corners), color::mix(tone.color(), color::PAPER, 0.35));
                 }
-                Mark::Patch(corners, k) => canvas.fill(&ring(corners), numbered(*k)),
+                Mark::Patch(corners, k) => canvas.fill(&ring(corners), region_color(*k)),
                 Mark::Line(ends, tone) => {
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE };
                     let line = ends.map(|p| view.place(p));
@@ -103,7 +104,7 @@ impl Sketch {
                     canvas.dots(std::iter::once(view.place(*p)), radius * scale, dot_color(*tone), 255);
                 }
                 Mark::Spot(p, k) => {
-                    canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(numbered(*k)), 255);
+                    canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(region_color(*k)), 255);
                 }
                 Mark::Ring(p, radius, tone) => {
                     let circle = polygon(*p, *radius).map(|p| view.place(p));
@@ -124,7 +125,7 @@ impl Sketch {
         for mark in &self.marks {
             match mark {
                 Mark::Area(corners, tone) => area(out, view, corners, tone.color(), 0.65)?,
-                Mark::Patch(corners, k) => area(out, view, corners, numbered(*k), 1.0)?,
+                Mark::Patch(corners, k) => area(out, view, corners, region_color(*k), 1.0)?,
                 Mark::Line(ends, tone) => {
                     let [[ax, ay], [bx, by]] = ends.map(|p| view.place(p));
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE } * scale;
@@ -138,10 +139,10 @@ impl Sketch {
                     let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT } * scale;
                     dot(out, view, *p, radius, dot_color(*tone))?;
                 }
-                Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(numbered(*k)))?,
+                Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(region_color(*k)))?,
                 Mark::Ring(p, radius, tone) => {
                     let [x, y] = view.place(*p);
-                    let (r, color) = (view.length(*radius), hex(line_color(*tone)));
+                    let ([r, _], color) = (view.length(*radius), hex(line_color(*tone)));
                     writeln!(
                         out,
                         r#"<circle cx="{x:.2}" cy="{y:.2}" r="{r:.2}" fill="none" stroke="{color}" stroke-width="{:.2}"/>"#,
@@ -216,7 +217,7 @@ pub fn write_sketch(
     size: u32,
 ) -> Result<(), Error> {
     check_size(size)?;
-    let view = View::around(window.into_iter(), size);
+    let view = View::around(window.into_iter(), &Frame::new(size, None));
     match format {
         Format::Svg => Ok(sketch.svg(out, &view)?),
         _ => sketch.draw(&view)?.encode(out),
