@@ -65,7 +65,9 @@ impl Legend {
                 };
                 Self::Regions(known.iter().map(label).collect())
             }
-            Paint::Relief(relief) => Self::heights(&HEIGHT, [relief.low, relief.high], mesh.crs),
+            Paint::Relief(relief) => {
+                Self::heights(&HEIGHT, [relief.low, relief.high], mesh.crs.or(options.crs.as_ref()))
+            }
             Paint::Angles(_) => Self::words(&ANGLE, ["0", "30", "60 degrees"]),
             Paint::Density(_) => Self::words(&DENSITY, ["sparse", "", "dense"]),
         }

@@ -34,7 +34,7 @@ use std::io::Write;
 
 use delone::Triangulation;
 
-use crate::{Error, Format, Mesh};
+use crate::{Crs, Error, Format, Mesh};
 use legend::Legend;
 use relief::Paint;
 use view::{Frame, View};
@@ -68,6 +68,8 @@ pub struct Options {
     pub window: Option<[[f64; 2]; 2]>,
     /// Below the drawing, the value or the name of each region beside its color.
     pub legend: bool,
+    /// The system of coordinates, if the mesh has none: longitude and latitude are drawn in the shape that they have on the ground.
+    pub crs: Option<Crs>,
 }
 
 impl Default for Options {
@@ -85,6 +87,7 @@ impl Default for Options {
             angles: false,
             window: None,
             legend: true,
+            crs: None,
         }
     }
 }
@@ -149,7 +152,7 @@ pub(crate) fn write(
     check_size(options.size)?;
     let paint = Paint::of(mesh, options.angles);
     let legend = Legend::of(mesh, &paint, options);
-    let frame = Frame::new(options.size, mesh.crs);
+    let frame = Frame::new(options.size, mesh.crs.or(options.crs.as_ref()));
     let view = legend.fit(frame, |frame| View::of(mesh, options, frame));
     let layers = Layers::choose(mesh, &view, options);
     let legend = if layers.fill { legend } else { Legend::None };

@@ -3,13 +3,14 @@
 use std::io::Write;
 
 use super::color::{EDGE, INK, LINK, POINT, Rgb};
+use super::legend::Legend;
 use super::palette::region_color;
 use super::png::Canvas;
 use super::raster::Raster;
-use super::svg::{hex, open};
+use super::svg::{escaped, hex, open, strip};
 use super::view::{Frame, View};
 use super::{check_size, color};
-use crate::{Error, Format};
+use crate::{Crs, Error, Format};
 
 /// The role of something in a sketch, which decides its color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,8 +67,10 @@ pub enum Mark {
 pub struct Sketch {
     /// The marks.
     pub marks: Vec<Mark>,
-    /// A line below.
+    /// A line below; without it there is a scale bar.
     pub caption: String,
+    /// The system of coordinates, in which longitude and latitude are drawn in the shape that they have on the ground.
+    pub crs: Option<Crs>,
 }
 
 /// Widths in pixels, of a picture 600 pixels wide.
@@ -113,7 +116,9 @@ impl Sketch {
                 }
             }
         }
-        if let Some(top) = view.strip() {
+        if self.caption.is_empty() {
+            canvas.strip(&Legend::None.pieces(view));
+        } else if let Some(top) = view.strip() {
             canvas.text([24.0, top + 14.0], &self.caption);
         }
         Ok(canvas)
@@ -151,12 +156,14 @@ impl Sketch {
                 }
             }
         }
-        if let Some(top) = view.strip() {
+        if self.caption.is_empty() {
+            strip(out, &Legend::None.pieces(view))?;
+        } else if let Some(top) = view.strip() {
             writeln!(
                 out,
                 r#"<text x="24" y="{:.1}" font-family="sans-serif" font-size="18">{}</text>"#,
                 top + 30.0,
-                self.caption.replace('&', "&amp;").replace('<', "&lt;")
+                escaped(&self.caption)
             )?;
         }
         writeln!(out, "</svg>")
@@ -217,7 +224,7 @@ pub fn write_sketch(
     size: u32,
 ) -> Result<(), Error> {
     check_size(size)?;
-    let view = View::around(window.into_iter(), &Frame::new(size, None));
+    let view = View::around(window.into_iter(), &Frame::new(size, sketch.crs.as_ref()));
     match format {
         Format::Svg => Ok(sketch.svg(out, &view)?),
         _ => sketch.draw(&view)?.encode(out),

@@ -252,7 +252,8 @@ pub(super) fn strip(out: &mut dyn Write, pieces: &[Piece]) -> io::Result<()> {
             Piece::Ramp { at, size, ramp } => {
                 let colors = ramp.colors();
                 // Pictures in one page share names: equal ones are to mean the same.
-                let name: String = colors.iter().map(|&color| hex(color)).collect::<String>().replace('#', "");
+                let name: String =
+                    colors.iter().map(|&color| hex(color)).collect::<String>().replace('#', "");
                 write!(out, r#"<linearGradient id="{name}">"#)?;
                 for (k, &color) in colors.iter().enumerate() {
                     let offset = k as f64 / (colors.len() - 1) as f64;
