@@ -63,7 +63,11 @@ impl Legend {
                     None if value.fract() == 0.0 && value.abs() < 1e15 => format!("{value}"),
                     None => format!("{value:?}"),
                 };
-                Self::Regions(known.iter().map(label).collect())
+                let mut labels: Vec<String> = known.iter().map(label).collect();
+                if let (Some(first), None) = (labels.first_mut(), mesh.names) {
+                    first.insert_str(0, "region ");
+                }
+                Self::Regions(labels)
             }
             Paint::Relief(relief) => {
                 Self::heights(&HEIGHT, [relief.low, relief.high], mesh.crs.or(options.crs.as_ref()))

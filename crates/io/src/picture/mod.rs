@@ -12,6 +12,7 @@ mod animation;
 mod cells;
 mod color;
 mod contours;
+mod indexed;
 mod legend;
 mod palette;
 mod png;

@@ -28,6 +28,11 @@ pub(super) const HATCH_WIDTH: u32 = 2;
 /// How dark lines of hatching are, as a part of the light of their region.
 const HATCH_LIGHT: f64 = 0.62;
 
+/// All of them.
+pub(super) fn region_colors() -> &'static [Rgb] {
+    &REGION_COLORS
+}
+
 /// Light colors, which come back after a while.
 pub(super) fn region_color(number: usize) -> Rgb {
     REGION_COLORS[number % REGION_COLORS.len()]

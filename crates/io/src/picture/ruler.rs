@@ -86,6 +86,7 @@ impl std::fmt::Display for Short {
 /// A length of a scale bar with its unit: metres, or kilometres from a thousand of them.
 pub(super) fn length_label(length: f64, is_metres: bool) -> String {
     match (is_metres, length) {
+        (false, 1.0) => "1 unit".to_owned(),
         (false, length) => format!("{} units", Short(length)),
         (true, length) if length >= 1000.0 => format!("{} km", Short(length / 1000.0)),
         (true, length) => format!("{} m", Short(length)),

@@ -32,7 +32,7 @@ pub enum Tone {
 
 impl Tone {
     /// Told apart by everyone (Okabe and Ito's palette).
-    fn color(self) -> Rgb {
+    pub(super) fn color(self) -> Rgb {
         match self {
             Self::Faint => [205, 214, 219],
             Self::Plain => EDGE,
@@ -77,7 +77,8 @@ pub struct Sketch {
 const LINE: f64 = 1.2;
 const DOT: f64 = 3.0;
 
-fn dark(color: Rgb) -> Rgb {
+/// The color of a dot that has that of an area.
+pub(super) fn dark(color: Rgb) -> Rgb {
     color::shade(color, 0.6)
 }
 
