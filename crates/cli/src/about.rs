@@ -21,6 +21,12 @@ pub(crate) fn version() -> Result<(), Failure> {
 pub(crate) fn completions(shell: Shell) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut with_values(Cli::command()), "delone", &mut script);
+    if shell == Shell::Fish {
+        // The generator of scripts for this shell leaves out values without an option.
+        let condition = "__fish_delone_using_subcommand generate";
+        let line = format!("complete -c delone -n \"{condition}\" -f -a \"{}\"\n", sets().join(" "));
+        script.extend_from_slice(line.as_bytes());
+    }
     answer(&String::from_utf8_lossy(&script))
 }
 

@@ -84,7 +84,7 @@ fn window(args: &WindowArgs) -> Result<Region, Failure> {
     match args.box_[..] {
         [] => Ok(Region::ALL),
         [a, b, c, d] if a <= c && b <= d => Ok(Region { low: [a, b], high: [c, d] }),
-        [a, b, c, d] => {
+        [a, b, c, d] if a > c || b > d => {
             let what =
                 format!("--box goes from {a:?},{b:?} to {c:?},{d:?}: its first corner is not the least");
             let [x, y] = [[a.min(c), a.max(c)], [b.min(d), b.max(d)]];

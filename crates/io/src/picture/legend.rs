@@ -64,8 +64,9 @@ impl Legend {
                     None => format!("{value:?}"),
                 };
                 let mut labels: Vec<String> = known.iter().map(label).collect();
-                if let (Some(first), None) = (labels.first_mut(), mesh.names) {
-                    first.insert_str(0, "region ");
+                let named = |value| mesh.names.is_some_and(|names| names.region(value).is_some());
+                if let (Some(label), Some(false)) = (labels.first_mut(), known.first().copied().map(named)) {
+                    label.insert_str(0, "region ");
                 }
                 Self::Regions(labels)
             }
