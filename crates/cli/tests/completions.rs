@@ -30,7 +30,7 @@ fn formats_and_sets_are_completed() {
         return;
     }
     assert_eq!(offered(&place, "delone triangulate x --to gp"), ["gpkg"]);
-    assert_eq!(offered(&place, "delone triangulate x --from la"), ["las", "laz"]);
+    assert_eq!(offered(&place, "delone triangulate x --from la"), ["lammpstrj", "las", "laz"]);
     assert_eq!(offered(&place, "delone generate unif"), ["uniform"]);
     assert!(offered(&place, "delone draw x --to s").contains(&"svg".to_owned()));
     // What is written alone is not read.
