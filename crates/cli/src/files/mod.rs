@@ -23,7 +23,7 @@ pub(crate) use attributes::{
 pub use graphs::graph;
 pub(crate) use graphs::{graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings};
 pub(crate) use sides::write_sides;
-pub(crate) use systems::{Role, drawn, drawn_system, say_system};
+pub(crate) use systems::{Role, drawn, drawn_system, keep_system, say_system};
 pub(crate) use write::{cannot_write, create, finish, folder_of, publish, scratch, write_mesh};
 pub use write::{write, write_own};
 

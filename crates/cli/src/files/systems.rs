@@ -113,6 +113,12 @@ pub(crate) fn drawn(options: &picture::Options) -> picture::Options {
     picture::Options { crs, ..options.clone() }
 }
 
+/// Keeps the system of a folder of tiles for the outputs.
+pub(crate) fn keep_system(crs: Option<&Crs>, folder: &Path) {
+    let known = |crs: &Crs| Known { crs: crs.clone(), path: folder.to_owned(), role: Role::Input };
+    run().known = crs.map(known);
+}
+
 /// Keeps the outputs of the command.
 pub(super) fn expect(outputs: &[(PathBuf, Format)]) {
     run().outputs.extend_from_slice(outputs);

@@ -54,7 +54,10 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("points", summary.points);
     stats.set("vertices", points.len());
     stats.set("simplices", d.simplices().count() - shown);
+    let crs = store.crs();
+    files::keep_system(crs.as_ref(), &args.folder);
     let mesh = Mesh {
+        crs: crs.as_ref(),
         heights: store.has_heights().then_some(&heights[..]),
         regions: regions.as_deref(),
         trim: trim.as_ref(),
