@@ -7,7 +7,7 @@ use super::legend::Legend;
 use super::palette::region_color;
 use super::png::Canvas;
 use super::raster::Raster;
-use super::svg::{escaped, hex, open, strip};
+use super::svg::{Pen, escaped, hex, open, open_parts, strip};
 use super::view::{Frame, View};
 use super::{check_size, color};
 use crate::{Crs, Error, Format};
@@ -60,6 +60,17 @@ pub enum Mark {
     Spot([f64; 2], usize),
     /// A circle around a point.
     Ring([f64; 2], f64, Tone),
+}
+
+impl Mark {
+    /// Whether both are one path in a vector picture.
+    fn is_drawn_with(&self, next: &Self) -> bool {
+        match (self, next) {
+            (Self::Patch(_, k), Self::Patch(_, l)) => k == l,
+            (Self::Line(_, tone), Self::Line(_, other)) => tone == other,
+            _ => false,
+        }
+    }
 }
 
 /// The drawn things, from the bottom to the top.
@@ -128,18 +139,30 @@ impl Sketch {
     fn svg(&self, out: &mut dyn Write, view: &View) -> std::io::Result<()> {
         open(out, view)?;
         let scale = f64::from(view.width.max(view.height)) / 600.0;
-        for mark in &self.marks {
-            match mark {
+        for alike in self.marks.chunk_by(Mark::is_drawn_with) {
+            match &alike[0] {
                 Mark::Area(corners, tone) => area(out, view, corners, tone.color(), 0.65)?,
-                Mark::Patch(corners, k) => area(out, view, corners, region_color(*k), 1.0)?,
-                Mark::Line(ends, tone) => {
-                    let [[ax, ay], [bx, by]] = ends.map(|p| view.place(p));
+                Mark::Patch(_, k) => {
+                    open_parts(out, 0.0)?;
+                    write!(out, r#"><path fill="{}" d=""#, hex(region_color(*k)))?;
+                    let mut pen = Pen::default();
+                    for mark in alike {
+                        let Mark::Patch(corners, _) = mark else { continue };
+                        pen.ring(out, corners.iter().map(|&p| view.place(p)))?;
+                    }
+                    writeln!(out, r#""/></g>"#)?;
+                }
+                Mark::Line(_, tone) => {
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE } * scale;
+                    open_parts(out, width)?;
                     let color = hex(line_color(*tone));
-                    writeln!(
-                        out,
-                        r#"<path stroke="{color}" stroke-width="{width:.2}" stroke-linecap="round" d="M{ax:.2} {ay:.2}L{bx:.2} {by:.2}"/>"#
-                    )?;
+                    write!(out, r#"><path fill="none" stroke="{color}" stroke-linecap="round" d=""#)?;
+                    let mut pen = Pen::default();
+                    for mark in alike {
+                        let Mark::Line(ends, _) = mark else { continue };
+                        pen.line(out, ends.iter().map(|&p| view.place(p)))?;
+                    }
+                    writeln!(out, r#""/></g>"#)?;
                 }
                 Mark::Dot(p, tone) => {
                     let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT } * scale;

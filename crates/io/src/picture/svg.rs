@@ -19,8 +19,10 @@ use crate::{Mesh, Shape};
 const PARTS: f64 = 100.0;
 /// Corners further away are drawn as if they were here: so that differences are numbers.
 const FAR_PARTS: f64 = 1e9;
+/// The lines around areas that close the seams between them, in pixels.
+pub(super) const SEAM_WIDTH: f64 = 0.6;
 /// Shades of a ramp, and of light from 0 to 1, that are told apart.
-const RAMP_STEPS: f64 = 96.0;
+pub(super) const RAMP_STEPS: f64 = 96.0;
 const LIGHT_STEPS: f64 = 24.0;
 
 pub(super) fn write(
@@ -71,9 +73,10 @@ pub(super) fn write(
     writeln!(out, "</svg>")
 }
 
-/// A group whose coordinates are parts of pixels.
-fn open_parts(out: &mut dyn Write) -> io::Result<()> {
-    write!(out, r#"<g transform="scale({})""#, 1.0 / PARTS)
+/// The beginning of a group whose coordinates are parts of pixels, with lines of a width in pixels.
+pub(super) fn open_parts(out: &mut dyn Write, width: f64) -> io::Result<()> {
+    let (scale, width) = (1.0 / PARTS, width * PARTS);
+    write!(out, r#"<g transform="scale({scale})" stroke-width="{width:.0}" stroke-linejoin="round""#)
 }
 
 /// The triangles, those of one color together.
@@ -95,8 +98,8 @@ fn fill(
     let mut looks: Vec<([u32; 2], usize)> =
         triangles.iter().copied().enumerate().map(|(i, triangle)| (look((i, triangle)), i)).collect();
     looks.sort_unstable();
-    open_parts(out)?;
-    writeln!(out, r#" stroke-width="{}" stroke-linejoin="round">"#, 0.6 * PARTS)?;
+    open_parts(out, SEAM_WIDTH)?;
+    writeln!(out, ">")?;
     for alike in looks.chunk_by(|a, b| a.0 == b.0) {
         let [value, light] = alike[0].0.map(f64::from);
         let (color, fill) = match paint.region(value) {
@@ -165,7 +168,11 @@ impl Pen {
     }
 
     /// A line through some positions.
-    fn line(&mut self, out: &mut dyn Write, positions: impl Iterator<Item = [f64; 2]>) -> io::Result<()> {
+    pub(super) fn line(
+        &mut self,
+        out: &mut dyn Write,
+        positions: impl Iterator<Item = [f64; 2]>,
+    ) -> io::Result<()> {
         for (i, position) in positions.enumerate() {
             if i == 0 {
                 write!(out, "m")?;
