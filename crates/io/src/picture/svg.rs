@@ -102,12 +102,11 @@ fn fill(
     writeln!(out, ">")?;
     for alike in looks.chunk_by(|a, b| a.0 == b.0) {
         let [value, light] = alike[0].0.map(f64::from);
-        let (color, fill) = match paint.region(value) {
-            Some(number) => (hex(region_color(number)), pattern(out, number, PARTS)?),
-            None => {
-                let color = hex(paint.color([value / RAMP_STEPS, light / LIGHT_STEPS]));
-                (color.clone(), color)
-            }
+        let (color, fill) = if let Some(number) = paint.region(value) {
+            (hex(region_color(number)), pattern(out, number, PARTS)?)
+        } else {
+            let color = hex(paint.color([value / RAMP_STEPS, light / LIGHT_STEPS]));
+            (color.clone(), color)
         };
         write!(out, r#"<path fill="{fill}" stroke="{color}" d=""#)?;
         let mut pen = Pen::default();

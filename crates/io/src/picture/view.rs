@@ -85,7 +85,7 @@ impl View {
         let below = [0.0, strip];
         let room = below.map(|taken| size - 2.0 * margin - taken);
         let fit = |k: usize| if extent[k] > 0.0 { room[k] / extent[k] } else { f64::INFINITY };
-        let longer = if fit(0) <= fit(1) { 0 } else { 1 };
+        let longer = usize::from(fit(0) > fit(1));
         let scale = if fit(longer).is_finite() { fit(longer) } else { room[1] };
         let drawn = extent.map(|side| side * scale);
         let pixels = [0, 1].map(|k| {
