@@ -132,7 +132,7 @@ fn place([x, y]: [f64; 2], z: Option<f64>) -> Vec<u8> {
     [1].into_iter().chain(kind.to_le_bytes()).chain(numbers).collect()
 }
 
-/// What GeoParquet says of a table.
+/// The entry of a table that makes it GeoParquet.
 fn geo(name: &str, xy: &[[f64; 2]], z: Option<&[f64]>, crs: Option<&Crs>) -> Value {
     let kind = if z.is_some() { "Point Z" } else { "Point" };
     let mut column = json!({ "encoding": "WKB", "geometry_types": [kind] });

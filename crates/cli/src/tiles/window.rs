@@ -107,7 +107,7 @@ fn sides(window: &Region) -> Vec<[[f64; 2]; 2]> {
     vec![[[a, b], [c, b]], [[c, b], [c, d]], [[c, d], [a, d]], [[a, d], [a, b]]]
 }
 
-/// What a picture shows of a box: the triangles that cross its border too, as far from it as it is wide or high.
+/// The part of the plane that a picture of a box shows: triangles across its border too, as far from it as it is wide or high.
 fn shown_window(window: &Region, points: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     let ends = |k: usize| {
         let (low, high) = (window.low[k], window.high[k]);

@@ -138,7 +138,7 @@ impl Legend {
     }
 }
 
-/// What is said of regions that are not listed.
+/// The text for regions that are not listed.
 fn more(count: usize) -> String {
     format!("and {count} more")
 }

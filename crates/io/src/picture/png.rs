@@ -215,7 +215,7 @@ impl Canvas {
         }
     }
 
-    /// What is below the drawing.
+    /// The strip below the drawing.
     pub(super) fn strip(&mut self, pieces: &[Piece]) {
         for piece in pieces {
             match piece {

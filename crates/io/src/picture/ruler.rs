@@ -15,7 +15,7 @@ const LATITUDE_RANGE: f64 = 90.0;
 pub(super) enum Ruler {
     /// Nobody tells.
     Unknown,
-    /// So many metres.
+    /// A unit is as many metres.
     Metres(f64),
     /// Longitude and latitude.
     Degrees,

@@ -118,7 +118,7 @@ fn fill(
     writeln!(out, "</g>")
 }
 
-/// What a region is filled with, in units of so many a pixel: a color, or a pattern that is defined first.
+/// The filling of a region, in units of so many a pixel: a color, or a pattern that is defined first.
 fn pattern(out: &mut dyn Write, number: usize, unit: f64) -> io::Result<String> {
     let lines = hatching(number);
     if lines == [false; 2] {
@@ -246,7 +246,7 @@ pub(super) fn open(out: &mut dyn Write, view: &View) -> io::Result<()> {
     writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)
 }
 
-/// What is below the drawing.
+/// The strip below the drawing.
 pub(super) fn strip(out: &mut dyn Write, pieces: &[Piece]) -> io::Result<()> {
     for piece in pieces {
         match piece {
