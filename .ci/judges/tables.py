@@ -29,7 +29,8 @@ def judge_table(folder, points, system):
             # Places are longitude before latitude, whatever the order of the axes is.
             place = [[500_000.0, 400_000.0]] if expected.is_projected else [[9.0, 48.0]]
             there = [
-                pyproj.Transformer.from_crs(crs, "OGC:CRS84", always_xy=True).transform(*np.transpose(place)) for crs in (known, expected)
+                pyproj.Transformer.from_crs(crs, "OGC:CRS84", always_xy=True).transform(*np.transpose(place))
+                for crs in (known, expected)
             ]
             if not np.allclose(*there, rtol=0, atol=1e-9):
                 faults.append(f"{known.name} is elsewhere than EPSG:{system}")

@@ -147,6 +147,13 @@ fn windows_show_what_crosses_the_border() {
         .collect();
     assert!(circles.len() > 20);
     assert!(circles.iter().all(|[x, y]| (0.0..wide).contains(x) && (0.0..high).contains(y)), "{circles:?}");
+    // A folder knows the system of what it was made of.
+    place.succeed("-q tiles p.csv -o u --tile 400 --epsg 25832");
+    place.succeed("-q window u -o u.svg -o u.geojson");
+    assert_eq!(labels(&place, "u.svg").last().map(String::as_str), Some("0.2 m"));
+    assert!(place.read("u.geojson").contains("EPSG::25832"));
+    let told = text(&place.run("window u -o u.off").stderr);
+    assert!(told.contains("nothing in it says that its coordinates are EPSG:25832"), "{told}");
     let told = text(&place.run("window t --box 7,7,8,8 -o none.png").stderr);
     assert!(told.contains("no triangle of t is in the box"), "{told}");
     place.fail("window t --box 0.5,0.4,0.4,0.5 -o w.png", 2, "from 0.5,0.4 to 0.4,0.5");
