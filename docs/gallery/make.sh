@@ -76,7 +76,7 @@ $lab animate "$work/thirty.csv" --show hints --size 400 -o $here/walks.png
 # The five sets of the paper of the Delaunay hierarchy (Devillers 1998, Figure 5).
 for kind in uniform ellipse2 ellipse parabola circle; do
     $delone generate $kind -n 400 --seed 1 -o "$work/$kind.csv"
-    $delone draw "$work/$kind.csv" --colours=no -o $here/set-$kind.png --size 360
+    $delone draw "$work/$kind.csv" --colors=no -o $here/set-$kind.png --size 360
 done
 # A scanned head, if there is one.
 scan=${SCAN:-../shared/data/igea.ply}

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("ignore")
 @pytest.fixture(scope="module")
 def session():
     settings = pyspark.sql.SparkSession.builder.master("local[2]").config("spark.ui.enabled", "false")
-    made = settings.config("spark.sql.shuffle.partitions", "4").getOrCreate()
+    made = settings.getOrCreate()
     made.sparkContext.setLogLevel("OFF")
     yield made
     made.stop()
@@ -32,6 +32,8 @@ def test_tiles_give_what_memory_gives(session, count):
         made = delone.spark.triangulate(frame, count, x="e", y="n", id="number")
         expected = delone.tiles.fingerprint(points, delone.Delaunay(points).simplices)
         assert made.fingerprint() == expected
+        # Not the usual 200 a level.
+        assert made.parts.rdd.getNumPartitions() <= 2 * len(made.cuts)
         assert delone.tiles.fingerprint(points, made.triangles.toPandas().to_numpy()) == expected
 
 

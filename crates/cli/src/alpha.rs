@@ -152,7 +152,7 @@ fn write_outline(
     }
     if outputs.iter().any(|(_, format)| !is_polygon(format)) {
         let triangles = alpha.complex(value).triangles;
-        let patches = Patches {
+        let mut patches = Patches {
             points,
             heights: about.z,
             triangles: triangles.iter().map(|t| counter_clockwise(alpha, *t).map(VertexId::index)).collect(),
@@ -161,7 +161,10 @@ fn write_outline(
             ..Patches::default()
         };
         for (path, format) in outputs.iter().filter(|(_, format)| !is_polygon(format)) {
+            let own = patches.crs.clone();
+            patches.crs = files::drawn_system(own.as_ref(), *format);
             files::write_mesh(path, quiet, |out| write_patches(out, *format, &patches, size))?;
+            patches.crs = own;
         }
     }
     Ok(())

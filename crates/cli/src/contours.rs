@@ -51,7 +51,8 @@ pub(crate) fn run(args: &ContoursArgs, quiet: bool) -> Result<(), Failure> {
     let _phase = Phase::start(quiet, "writing");
     for (path, format) in &outputs {
         let lines = if args.bands && !is_picture(*format) { &[][..] } else { &lines[..] };
-        let map = ContourMap { lines, bands: &bands, crs: about.crs.as_ref() };
+        let crs = files::drawn_system(about.crs.as_ref(), *format);
+        let map = ContourMap { lines, bands: &bands, crs: crs.as_ref() };
         files::write(path, |out| write_contours(out, *format, &map, args.size))?;
     }
     stats.phase("write");

@@ -59,7 +59,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     let mesh = room::mesh(&d, &points, &about, trim.as_ref());
     let _phase = Phase::start(quiet, "drawing");
     for (path, format) in &outputs {
-        files::write(path, |out| write_mesh(out, *format, &mesh, &options))?;
+        files::write(path, |out| write_mesh(out, *format, &mesh, &files::drawn(&options)))?;
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);

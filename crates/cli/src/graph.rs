@@ -54,7 +54,7 @@ pub(crate) fn run<R: Room>(args: &ProximityArgs, quiet: bool) -> Result<(), Fail
                 ..picture::Options::default()
             };
             let mesh = room::mesh(&d, &points, &about, None);
-            files::write(path, |out| write_mesh(out, *format, &mesh, &options))?;
+            files::write(path, |out| write_mesh(out, *format, &mesh, &files::drawn(&options)))?;
         } else {
             files::write(path, |out| write_edges(out, *format, &edges))?;
         }

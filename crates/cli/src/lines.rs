@@ -86,6 +86,8 @@ pub(crate) fn run(
     };
     let phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
+        let crs = files::drawn_system(diagram.crs, *format);
+        let diagram = LineDiagram { crs: crs.as_ref(), ..diagram };
         files::write(path, |out| delone_io::write_lines_diagram(out, *format, &diagram, args.camera.size))?;
     }
     if let (Some(path), Some(format)) = (&args.sites, sites_format) {

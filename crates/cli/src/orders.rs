@@ -63,6 +63,8 @@ pub(crate) fn write(
     let _phase = Phase::start(quiet, "writing");
     let diagram = OrderDiagram { diagram: &diagram, cells: &cells, crs: wanted.crs };
     for (path, format) in outputs {
+        let crs = files::drawn_system(diagram.crs, *format);
+        let diagram = OrderDiagram { crs: crs.as_ref(), ..diagram };
         files::write(path, |out| delone_io::write_orders(out, *format, &diagram, wanted.size))?;
     }
     stats.phase("write");

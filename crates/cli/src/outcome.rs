@@ -46,7 +46,7 @@ pub(crate) fn finish<R: Room>(
     let phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
         let options = picture::Options::default();
-        files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &options))?;
+        files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &files::drawn(&options)))?;
     }
     drop(phase);
     stats.phase("write");

@@ -97,7 +97,10 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("simplices", patches.triangles.len());
     let phase = Phase::start(quiet, "writing");
     for (path, format) in &outputs {
+        let own = patches.crs.clone();
+        patches.crs = files::drawn_system(own.as_ref(), *format);
         files::write_mesh(path, quiet, |out| write_patches(out, *format, &patches, args.size))?;
+        patches.crs = own;
     }
     drop(phase);
     stats.phase("write");

@@ -56,6 +56,8 @@ pub(crate) fn run(
     let diagram =
         Diagram { triangulation: &r, cells: &cells, crs: about.crs.as_ref(), features: Some(&features) };
     for (path, format) in outputs {
+        let crs = files::drawn_system(diagram.crs, *format);
+        let diagram = Diagram { crs: crs.as_ref(), ..diagram };
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.camera.size))?;
     }
     if let (Some(path), Some(format)) = (&args.sites, sites_format) {

@@ -62,7 +62,7 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
         let mesh = room::mesh(&d, &about.xy, about, trim.as_ref());
         let _phase = Phase::start(quiet, "writing");
         for (path, format) in &outputs {
-            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &options))?;
+            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &files::drawn(&options)))?;
         }
         stats.phase("write");
     } else {

@@ -23,8 +23,11 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
             "leave it or --dim 3 out",
         ));
     }
+    // A file that can have segments may have none.
+    let mut is_graph = !R::is_space() && constrained::is_meant(&args.input, &args.graph);
     if args.fingerprint {
-        refuse_beside_fingerprint::<R>(args)?;
+        is_graph = is_graph && (args.graph.is_given() || has_segments(args)?);
+        refuse_beside_fingerprint(args, is_graph)?;
     }
     let by_points = args.algorithm.is_some() || args.strategy.locate.is_some() || args.hints.is_some();
     if args.graph.is_given() && (R::is_space() || by_points) {
@@ -42,7 +45,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
         }
         return weighted::triangulate::<R>(args, quiet);
     }
-    if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {
+    if is_graph && !by_points {
         args.strategy.refuse("segments")?;
         return constrained::triangulate(args, quiet);
     }
@@ -85,9 +88,14 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     stats.write(stats_path)
 }
 
+/// Whether files that can have segments do. What is not read twice is taken to have some.
+fn has_segments(args: &TriangulateArgs) -> Result<bool, Failure> {
+    let is_read_twice = args.input.input.iter().all(|path| path.is_file());
+    Ok(!is_read_twice || !files::graph(&args.input, None, true)?.segments.is_empty())
+}
+
 /// Fingerprints are of points alone, and alone on standard output.
-fn refuse_beside_fingerprint<R: Room>(args: &TriangulateArgs) -> Result<(), Failure> {
-    let is_graph = !R::is_space() && constrained::is_meant(&args.input, &args.graph);
+fn refuse_beside_fingerprint(args: &TriangulateArgs, is_graph: bool) -> Result<(), Failure> {
     if is_graph || args.weights.given().is_some() || args.hints.is_some() {
         return Err(Failure::usage(
             "--fingerprint is for points without segments, weights and hints",

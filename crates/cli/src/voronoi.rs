@@ -104,13 +104,14 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("cells", triangulation.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
     stats.set("area", region.area());
     let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram {
-        triangulation: &triangulation,
-        cells: &cells,
-        crs: about.crs.as_ref(),
-        features: Some(&features),
-    };
     for (path, format) in &outputs {
+        let crs = files::drawn_system(about.crs.as_ref(), *format);
+        let diagram = Diagram {
+            triangulation: &triangulation,
+            cells: &cells,
+            crs: crs.as_ref(),
+            features: Some(&features),
+        };
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.camera.size))?;
     }
     if let (Some(path), Some(format)) = (&args.sites, sites_format) {

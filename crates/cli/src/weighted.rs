@@ -113,7 +113,7 @@ impl<R: Room> Weighted<R> {
         let mesh = room::mesh(&self.triangulation, &self.points, &self.about, trim.as_ref());
         let phase = Phase::start(quiet, "writing");
         for (path, format) in outputs {
-            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, options))?;
+            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &files::drawn(options)))?;
         }
         drop(phase);
         stats.phase("write");

@@ -139,3 +139,55 @@ fn what_is_of_another_format_is_told() {
     place.file("c.csv", "POINT (1 2)\nPOINT (3)\n");
     assert!(!said(&place, "c.csv").1.contains("--from"));
 }
+
+#[test]
+fn formats_that_go_one_way_say_so() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n0,1\n");
+    for row in Format::all().filter(|format| *format != Format::WktCollection) {
+        let [names, also] = row.names();
+        let is_own = |name: &&&str| name.parse::<Format>().ok() == Some(row);
+        for name in names.iter().chain(also).filter(is_own) {
+            let (points, written) = (Contents::Points, row.holds(Contents::Points, Direction::Written));
+            let output = place.run(&format!("-q generate uniform -n 9 -o a.{name}"));
+            let told = text(&output.stderr);
+            assert_eq!(output.status.success(), written, "{name}: {told}");
+            let is_read = row.holds(points, Direction::Read);
+            assert_eq!(
+                told.contains(&format!("points are read from {row} files, not written")),
+                is_read && !written,
+                "{name}: {told}"
+            );
+            let reads = Contents::ALL.iter().any(|&any| row.holds(any, Direction::Read));
+            if !reads {
+                place.file(&format!("b.{name}"), "1 2\n");
+                let told = text(&place.run(&format!("-q info b.{name}")).stderr);
+                assert!(told.contains(&format!("{row} files are written alone")), "{name}: {told}");
+            }
+        }
+    }
+    // Pictures of other programs, and folders.
+    place.fail("draw p.csv -o p.gif", 2, "p.gif");
+    assert!(text(&place.run("draw p.csv -o p.gif").stderr).contains("svg or png"));
+    fs::create_dir(place.path("data")).expect("a folder");
+    for line in
+        ["info data", "triangulate data -o p.ply", "voronoi p.csv --clip data -o p.svg", "check p.csv data"]
+    {
+        let told = text(&place.run(line).stderr);
+        assert!(told.contains("folder") && !told.contains("extension"), "{line}: {told}");
+    }
+}
+
+#[test]
+fn fingerprints_are_of_files_that_could_have_segments_and_have_none() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n0,1\n2,3\n");
+    place.file("p.wkt", "MULTIPOINT((0 0),(1 0),(0 1),(2 3))\n");
+    place.file("p.geojson", r#"{"type":"MultiPoint","coordinates":[[0,0],[1,0],[0,1],[2,3]]}"#);
+    place.file("l.wkt", "LINESTRING(0 0,1 0,0 1)\n");
+    let expected = place.succeed("-q triangulate p.csv --fingerprint");
+    for name in ["p.wkt", "p.geojson"] {
+        assert_eq!(place.succeed(&format!("-q triangulate {name} --fingerprint")), expected, "{name}");
+    }
+    place.fail("triangulate l.wkt --fingerprint", 2, "without segments");
+}

@@ -10,6 +10,7 @@ mod attributes;
 #[cfg(target_os = "linux")]
 mod bytes;
 mod cells;
+mod completions;
 mod diagrams;
 mod districts;
 mod dtm;
@@ -33,6 +34,7 @@ mod narrow;
 #[cfg(unix)]
 mod outputs;
 mod outside;
+mod pictures;
 mod place;
 mod polyhedra;
 mod program;

@@ -166,7 +166,7 @@ fn what_cannot_be_is_refused() {
         ("window empty -o a.off", 1, "without tiles.json"),
         ("window nowhere -o a.off", 1, "without tiles.json"),
         ("window t --box 1,2,3 -o a.off", 2, "--box takes four numbers"),
-        ("window t --box 3,3,1,1 -o a.off", 2, "--box takes four numbers"),
+        ("window t --box 3,3,1,1 -o a.off", 2, "first corner is not the least"),
         ("window t --box nan,0,1,1 -o a.off", 2, "--box takes four numbers"),
         ("window t --points 0 -o a.off", 2, "invalid value"),
         ("window t -o a.las", 2, "las"),

@@ -200,6 +200,14 @@ impl Error {
                     "convert it with ogr2ogr -f GPKG out.gpkg {name}; as an output write gpkg, and convert that"
                 ));
             }
+            Self::UnknownExtension(name) if has_extension(name, &["gif", "webp", "apng", "mp4"]) => {
+                "pictures are svg or png; of motions delone-lab animate makes a png that moves, which ffmpeg converts"
+            }
+            Self::UnknownExtension(name)
+                if has_extension(name, &["jpg", "jpeg", "bmp", "pdf", "eps", "ps"]) =>
+            {
+                "pictures are svg or png: write one of these and convert it"
+            }
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::LeftOut { .. } => {
                 "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
@@ -209,13 +217,14 @@ impl Error {
             Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
             Self::Rows { .. } => "give the values of whole rows, as many as the raster has",
             Self::Beyond { .. } => "choose numbers of 64 bits, or remove that value",
-            Self::Unsupported { contents, direction, .. } => {
+            Self::Unsupported { contents, direction, format } => {
                 let formats = Format::with(&[*contents], *direction);
+                let way = format.other_way(*contents, *direction).map(|way| way + "; ").unwrap_or_default();
                 let maker = match (contents, direction) {
                     (Contents::Rasters, Direction::Read) => "; delone dtm makes one of points with heights",
                     _ => "",
                 };
-                return Cow::Owned(format!("{contents} are {direction}: {formats}{maker}"));
+                return Cow::Owned(format!("{way}{contents} are {direction}: {formats}{maker}"));
             }
         })
     }
@@ -225,8 +234,12 @@ impl Error {
 fn is_of_others(name: &str) -> bool {
     const OTHERS: [&str; 11] =
         ["kml", "kmz", "gml", "tab", "mif", "gdb", "topojson", "parquet", "geoparquet", "dgn", "osm"];
+    has_extension(name, &OTHERS)
+}
+
+fn has_extension(name: &str, any: &[&str]) -> bool {
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-    OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other))
+    any.iter().any(|other| extension.eq_ignore_ascii_case(other))
 }
 
 /// A message that may quote what others wrote, at most as long as is read.

@@ -293,6 +293,32 @@ impl Format {
         if self.holds(contents, direction) { Ok(()) } else { Err(self.without(contents, direction)) }
     }
 
+    /// In which direction such contents, or any at all, go where this one does not work.
+    ///
+    /// ```
+    /// use delone_io::{Contents, Direction, Format};
+    ///
+    /// let way = Format::Las.other_way(Contents::Points, Direction::Written);
+    /// assert_eq!(way.as_deref(), Some("points are read from las files, not written to them"));
+    /// let way = Format::Png.other_way(Contents::Points, Direction::Read);
+    /// assert_eq!(way.as_deref(), Some("png files are written alone"));
+    /// assert_eq!(Format::Ply.other_way(Contents::Rasters, Direction::Read), None);
+    /// ```
+    pub fn other_way(self, contents: Contents, direction: Direction) -> Option<String> {
+        let (other, way, not) = match direction {
+            Direction::Read => (Direction::Written, "written", "read from"),
+            Direction::Written => (Direction::Read, "read", "written to"),
+        };
+        if self.holds(contents, direction) {
+            return None;
+        }
+        if self.holds(contents, other) {
+            return Some(format!("{contents} are {other} {self} files, not {not} them"));
+        }
+        let is_one_way = !Contents::ALL.iter().any(|&any| self.holds(any, direction));
+        is_one_way.then(|| format!("{self} files are {way} alone"))
+    }
+
     /// The error of a format that does not hold such contents.
     pub(crate) fn without(self, contents: Contents, direction: Direction) -> Error {
         Error::Unsupported { format: self, contents, direction }

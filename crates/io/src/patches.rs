@@ -85,6 +85,7 @@ impl Patches {
         let dots = self.points.iter().copied().filter(is_shown).map(|p| Mark::Dot(p, Tone::Plain));
         Sketch {
             marks: patches.chain(sides.map(|side| Mark::Line(side, Tone::Plain))).chain(dots).collect(),
+            crs: self.crs.clone(),
             ..Sketch::default()
         }
     }

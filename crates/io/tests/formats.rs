@@ -166,7 +166,10 @@ fn what_is_written_is_in_the_table() {
 fn errors_name_what_holds_it() {
     let error = Format::Las.check(Contents::Cells, Direction::Written).expect_err("no cells");
     assert_eq!(error.to_string(), "Voronoi cells are not written to las files");
-    assert_eq!(error.help(), "Voronoi cells are written to: csv geojson fgb gpkg wkt wkb svg png");
+    assert_eq!(
+        error.help(),
+        "las files are read alone; Voronoi cells are written to: csv geojson fgb gpkg wkt wkb svg png"
+    );
 }
 
 #[test]

@@ -306,6 +306,7 @@ impl Run<'_> {
             count,
             has_heights,
             cuts,
+            system: about.crs.as_ref().and_then(|crs| crs.known_name().or_else(|| crs.name.clone())),
             buckets: None,
             left_out: 0,
             outcome: None,

@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 
 use delone::tiles::{Cut, Cuts, Fingerprint, Node};
-use delone_io::sync_folder;
+use delone_io::{Crs, sync_folder};
 use serde_json::{Value, json};
 
 use crate::buckets::Filled;
@@ -33,6 +33,8 @@ pub(crate) struct Manifest {
     pub(crate) count: u64,
     pub(crate) has_heights: bool,
     pub(crate) cuts: Cuts,
+    /// The system of coordinates, by the name that files give it, where one does.
+    pub(crate) system: Option<String>,
     /// The content of each tile's bucket, once all points are in theirs.
     pub(crate) buckets: Option<BTreeMap<Node, Filled>>,
     /// Points that were left out because they equal the only one of their tile.
@@ -89,6 +91,11 @@ impl Outcome {
 }
 
 impl Manifest {
+    /// The system of coordinates, where it is known.
+    pub(crate) fn crs(&self) -> Option<Crs> {
+        self.system.as_deref().and_then(Crs::of_name)
+    }
+
     /// Writes it, whole.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), Error> {
         let stage = match (&self.buckets, &self.outcome) {
@@ -110,6 +117,9 @@ impl Manifest {
             "input": self.input,
             "cuts": self.cuts.cuts().into_iter().map(cut).collect::<Vec<_>>(),
         });
+        if let Some(system) = &self.system {
+            all["system"] = json!(system);
+        }
         if let Some(buckets) = &self.buckets {
             let entry = |(node, filled): (&Node, &Filled)| {
                 json!([node.number(), filled.points, format!("{:016x}", filled.sum)])
@@ -208,6 +218,7 @@ impl Manifest {
             count,
             has_heights: all["heights"].as_bool()?,
             cuts,
+            system: all["system"].as_str().map(str::to_owned),
             buckets,
             left_out,
             outcome,

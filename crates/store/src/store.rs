@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use delone::tiles::{Cuts, Fingerprint, Node};
+use delone_io::Crs;
 
 use crate::error::Error;
 use crate::manifest::{self, Manifest, Outcome};
@@ -163,6 +164,11 @@ impl Store {
     /// Whether points have heights.
     pub fn has_heights(&self) -> bool {
         self.plan.has_heights
+    }
+
+    /// The system of coordinates, where the input told it.
+    pub fn crs(&self) -> Option<Crs> {
+        self.plan.crs()
     }
 
     /// The points of a tile, along a curve, with their heights, or zeros.

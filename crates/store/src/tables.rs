@@ -1,5 +1,6 @@
 //! Tables: the folder once more as tables, for programs that read Parquet.
 //!
+//! Points are GeoParquet: x and y once more as places, with the system of coordinates where it can be said.
 //! Names count over all tiles here, so all files of a kind are one table: `read_parquet('tiles/triangles-*.parquet')`.
 //!
 //! Cost: O(n); memory for the largest tile, some 120 bytes a point.
@@ -7,7 +8,7 @@
 use std::path::Path;
 
 use delone::tiles::Node;
-use delone_io::{Column, write_columns};
+use delone_io::{Column, Crs, write_columns};
 
 use crate::error::Error;
 use crate::manifest::{Manifest, Outcome};
@@ -25,12 +26,13 @@ pub(crate) fn write(
     watch: &dyn Watch,
 ) -> Result<Written, Error> {
     let mut written = Written::new();
+    let crs = plan.crs();
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
     let phase = Phase::count(watch, "writing tables", nodes.len() as u64);
     for node in nodes {
         let sums = written.entry(node).or_default();
         if plan.cuts.is_tile(node) {
-            points(folder, node, sums)?;
+            points(folder, node, crs.as_ref(), sums)?;
             triangles(folder, "triangles", node, sums, |v| node.id(v as u32))?;
         } else {
             triangles(folder, "seam", node, sums, |v| v)?;
@@ -40,7 +42,7 @@ pub(crate) fn write(
     Ok(written)
 }
 
-fn points(folder: &Path, node: Node, sums: &mut Sums) -> Result<(), Error> {
+fn points(folder: &Path, node: Node, crs: Option<&Crs>, sums: &mut Sums) -> Result<(), Error> {
     let cloud = shards::points(folder, node)?;
     let rows: Vec<i64> = shards::ids(folder, node)?.into_iter().map(|row| row as i64).collect();
     if rows.len() != cloud.xy.len() {
@@ -56,6 +58,7 @@ fn points(folder: &Path, node: Node, sums: &mut Sums) -> Result<(), Error> {
         ("y", Column::Numbers(&y)),
     ];
     columns.extend(cloud.z.as_ref().map(|z| ("z", Column::Numbers(z))));
+    columns.push(("geometry", Column::Places { xy: &cloud.xy, z: cloud.z.as_deref(), crs }));
     sums.write(&place(folder, "points", node, "parquet"), |out| write_columns(out, &columns))
 }
 

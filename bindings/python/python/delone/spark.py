@@ -62,7 +62,7 @@ def triangulate(frame: DataFrame, tiles: int, *, x: str = "x", y: str = "y", id:
     frame : pyspark.sql.DataFrame
         A row for each point.
     tiles : int
-        How many tiles, one task each: a million points in each is a good number.
+        How many tiles, one task each, whatever `spark.sql.shuffle.partitions` is: a million points in each is a good number.
     x, y, id : str
         The columns of coordinates, and of names for the points: integers from 0 on, no two the same. Of points at one place the
         one with the least id is a vertex.
@@ -96,12 +96,14 @@ def triangulate(frame: DataFrame, tiles: int, *, x: str = "x", y: str = "y", id:
         seam = _tiles.join(borders, cuts.region(int(key[0])))
         return _row(int(key[0]), seam.triangles.astype(np.int64), seam.border, seam.fingerprint)
 
-    located = points.mapInPandas(tile, "id long, x double, y double, node long")
+    # As many partitions as groups: the usual 200 would start Python for each that is empty, once a level.
+    located = points.mapInPandas(tile, "id long, x double, y double, node long").repartition(len(cuts), "node")
     open_ = located.groupBy("node").applyInPandas(leaf, _DONE).persist()
     done = open_
     for above in _levels(cuts):
         whole = F.create_map(*[F.lit(number) for pair in above.items() for number in pair])[F.col("node")]
         seams = open_.select("node", "border").withColumn("above", whole).where(F.col("above").isNotNull())
+        seams = seams.repartition(len(set(above.values())), "above")
         seams = seams.groupBy("above").applyInPandas(joined, _DONE).persist()
         open_ = open_.where(whole.isNull()).unionAll(seams)
         done = done.unionAll(seams)

@@ -262,7 +262,8 @@ impl Merge {
   delone draw plan.poly --crossings split -o plan.svg
 
 What is drawn follows from the room there is; --edges, --points and --colors decide otherwise. Segments are heavier
-lines, regions have colors, and what is outside is faint. With --dim 3 the hull is drawn, or what a cut leaves of the
+lines, regions have colors, which the legend tells, and what is outside is faint. Longitude and latitude have the shape of the ground
+at their middle. Of a million points png is smaller than svg. With --dim 3 the hull is drawn, or what a cut leaves of the
 tetrahedra.")]
 pub(crate) struct DrawArgs {
     #[command(flatten)]

@@ -29,7 +29,8 @@ With --neighbors, number k of a row being across the edge opposite to corner k:
                         uint64 (t, 3): the number of the node times 2^32, and the row there; 2^64 - 1 outside
   across-NNNNN.npy      of a tile what is across other edges, uint64 (k, 3): row, corner, triangle as above
 With --parquet, tables whose names count over all tiles: the number of a tile times 2^32, and the index there:
-  points-NNNNN.parquet      vertex, row of the input from 0, x, y, with --heights z
+  points-NNNNN.parquet      vertex, row of the input from 0, x, y, with --heights z, and geometry: GeoParquet, with the system
+                            of coordinates where it is longitude and latitude or a zone of UTM
   triangles-NNNNN.parquet   a, b, c: vertices, of tiles and of seams
 The fingerprint is that of the set of triangles by coordinates: delone triangulate --fingerprint prints the same.
 
@@ -76,7 +77,8 @@ pub(crate) struct TilesArgs {
   delone window tiles --box 0,0,1,1 --tiles -o tiles.svg
 
 Of a box all triangles that may meet it, which are those of all points, with heights where tiles have them. Of an overview as many
-points as are asked for, about, at equal steps along the curve of each tile, triangulated.
+points as are asked for, about, at equal steps along the curve of each tile, triangulated. A picture shows the triangles across the
+border of a box whole, and the box faintly.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct WindowArgs {
     /// Folder that delone tiles made.

@@ -276,7 +276,7 @@ impl Constrained {
         let phase = Phase::start(quiet, "writing");
         for (path, format) in outputs {
             tell_names(&graph.names, path, *format, quiet);
-            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, options))?;
+            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, &files::drawn(options)))?;
         }
         drop(phase);
         stats.phase("write");

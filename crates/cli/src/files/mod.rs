@@ -23,7 +23,7 @@ pub(crate) use attributes::{
 pub use graphs::graph;
 pub(crate) use graphs::{graph_beside, graph_with_points, holds_lines, polygons, polygons_beside, rings};
 pub(crate) use sides::write_sides;
-pub(crate) use systems::{Role, say_system};
+pub(crate) use systems::{Role, drawn, drawn_system, keep_system, say_system};
 pub(crate) use write::{cannot_write, create, finish, folder_of, publish, scratch, write_mesh};
 pub use write::{write, write_own};
 
@@ -43,7 +43,12 @@ pub(crate) fn format(path: &Path, said: Option<Format>, option: &str) -> Result<
             "the format of - is not known",
             format!("name it with {option}, as in {option} csv"),
         )),
-        None => Format::of(path).map_err(|error| Failure::file(path, &error)),
+        None => Format::of(path).map_err(|error| {
+            if path.is_dir() {
+                return Failure::usage(format!("{} is a folder", path.display()), "name a file in it");
+            }
+            Failure::file(path, &error)
+        }),
     }
 }
 
@@ -102,9 +107,11 @@ pub(crate) fn check_formats(outputs: &[(PathBuf, Format)], any: &[Contents]) -> 
     let holds = |format: Format| any.iter().any(|&contents| format.holds(contents, Direction::Written));
     let Some((path, format)) = outputs.iter().find(|(_, format)| !holds(*format)) else { return Ok(()) };
     let what: Vec<_> = any.iter().map(ToString::to_string).collect();
+    let way = any.iter().find_map(|&contents| format.other_way(contents, Direction::Written));
+    let way = way.map(|way| way + "; ").unwrap_or_default();
     Err(Failure::usage(
         format!("{}: {} are not written to {format} files", path.display(), what.join(" or ")),
-        format!("choose among {}", Format::with(any, Direction::Written)),
+        format!("{way}choose among {}", Format::with(any, Direction::Written)),
     ))
 }
 
@@ -140,6 +147,7 @@ fn open_part(
     what: &'static str,
     quiet: bool,
 ) -> Result<(Box<dyn Source>, Phase), Failure> {
+    systems::expect_input(path, format);
     let (source, phase) = open_raw(path, what, quiet)?;
     let source = decompressed(source, format).map_err(|error| wrong(path, format, &error))?;
     Ok((source, phase))

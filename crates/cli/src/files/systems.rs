@@ -3,18 +3,28 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use delone_io::{Crs, Format, Said};
+use delone_io::{Crs, Format, Said, picture};
 
 use crate::message::{Failure, lost, mislead};
 
 /// Systems and outputs of this run. Readers find the systems, writers name the outputs, and at the end both are compared.
-static RUN: Mutex<Run> = Mutex::new(Run { said: None, known: None, outputs: Vec::new() });
+static RUN: Mutex<Run> = Mutex::new(Run {
+    said: None,
+    known: None,
+    inputs: Vec::new(),
+    is_in_degrees: false,
+    outputs: Vec::new(),
+});
 
 struct Run {
     /// The system that the command line says all inputs have.
     said: Option<Crs>,
     /// The system of the input that was read first, or of a file beside it until then.
     known: Option<Known>,
+    /// Files that are read, with their formats.
+    inputs: Vec<(PathBuf, Format)>,
+    /// Whether an input that names no system is longitude and latitude by its format.
+    is_in_degrees: bool,
     outputs: Vec<(PathBuf, Format)>,
 }
 
@@ -71,7 +81,11 @@ pub(super) fn find_system(
     if let Some(said) = run.said.as_ref().filter(|_| role == Role::Input || crs.is_none()) {
         *crs = Some(said.clone());
     }
-    let Some(crs) = crs else { return Ok(()) };
+    let Some(crs) = crs else {
+        let is_geojson = |(input, format): &(PathBuf, Format)| input == path && *format == Format::GeoJson;
+        run.is_in_degrees |= role == Role::Input && run.inputs.iter().any(is_geojson);
+        return Ok(());
+    };
     let own = Known { crs: crs.clone(), path: path.to_owned(), role };
     match &run.known {
         Some(first) if !first.crs.agrees(&own.crs) => return Err(own.differs_from(first)),
@@ -79,6 +93,30 @@ pub(super) fn find_system(
         _ => run.known = Some(own),
     }
     Ok(())
+}
+
+/// Keeps a file that is read.
+pub(super) fn expect_input(path: &Path, format: Format) {
+    run().inputs.push((path.to_owned(), format));
+}
+
+/// The system in which pictures show coordinates: that of the mesh, or that of GeoJSON that names none (RFC 7946, section 4).
+pub(crate) fn drawn_system(crs: Option<&Crs>, format: Format) -> Option<Crs> {
+    let is_picture = matches!(format, Format::Svg | Format::Png);
+    let of_format = || (is_picture && run().is_in_degrees).then(|| Crs::of_name("OGC:CRS84")).flatten();
+    crs.cloned().or_else(of_format)
+}
+
+/// Options of a picture with the system that the input has by its format.
+pub(crate) fn drawn(options: &picture::Options) -> picture::Options {
+    let crs = drawn_system(options.crs.as_ref(), Format::Svg);
+    picture::Options { crs, ..options.clone() }
+}
+
+/// Keeps the system of a folder of tiles for the outputs.
+pub(crate) fn keep_system(crs: Option<&Crs>, folder: &Path) {
+    let known = |crs: &Crs| Known { crs: crs.clone(), path: folder.to_owned(), role: Role::Input };
+    run().known = crs.map(known);
 }
 
 /// Keeps the outputs of the command.

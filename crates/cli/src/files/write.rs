@@ -4,13 +4,13 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use delone_io::{Finished, Output, Remark, give_names};
+use delone_io::{Finished, Format, Output, Remark, give_names};
 
 use super::apart::{check_open, refuse_read};
 use super::sides::remove_stale;
 use super::{attributes, systems};
 use super::{is_special, is_standard};
-use crate::message::{Failure, lost, refuse_losses};
+use crate::message::{Failure, lost, note, refuse_losses};
 
 /// Outputs that are written and have no name yet.
 static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
@@ -22,7 +22,22 @@ pub(crate) fn publish(quiet: bool) -> Result<(), Failure> {
     systems::tell(quiet);
     attributes::tell(quiet);
     refuse_losses()?;
-    give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
+    give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))?;
+    systems::outputs().iter().for_each(|(path, format)| tell_size(path, *format, quiet));
+    Ok(())
+}
+
+/// Vector pictures of more bytes than this are slow to open everywhere.
+const LARGE_SVG_BYTES: u64 = 20_000_000;
+
+/// Tells of vector pictures that few programs show.
+fn tell_size(path: &Path, format: Format, quiet: bool) {
+    let length = path.metadata().map_or(0, |about| about.len());
+    if format == Format::Svg && length > LARGE_SVG_BYTES {
+        let megabytes = length / 1_000_000;
+        let help = "a png shows as much, and delone tiles with window --points draws some of the points";
+        note(quiet, format_args!("{}: {megabytes} megabytes are slow to open: {help}", path.display()));
+    }
 }
 
 /// The folder that a path is in.

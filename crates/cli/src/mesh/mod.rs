@@ -369,13 +369,13 @@ fn write_all<T: Triangulation<Point = [f64; 2]>>(
         files::write_mesh(path, quiet, |out| match content {
             // Its faces have corners alone.
             Content::Mesh(format @ Format::Off) => {
-                write_mesh(out, *format, &Mesh { second_order: false, ..*mesh }, options)
+                write_mesh(out, *format, &Mesh { second_order: false, ..*mesh }, &files::drawn(options))
             }
             // Pictures show triangles.
             Content::Mesh(format @ (Format::Png | Format::Svg)) => {
-                write_mesh(out, *format, &Mesh { partners: None, ..*mesh }, options)
+                write_mesh(out, *format, &Mesh { partners: None, ..*mesh }, &files::drawn(options))
             }
-            Content::Mesh(format) => write_mesh(out, *format, mesh, options),
+            Content::Mesh(format) => write_mesh(out, *format, mesh, &files::drawn(options)),
             Content::VoronoiNode => write_voronoi_node(out, mesh).map(|()| None),
             Content::VoronoiEdge => write_voronoi_edge(out, mesh).map(|()| None),
         })?;

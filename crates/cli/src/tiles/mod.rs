@@ -20,6 +20,8 @@ pub(crate) use window::run as window;
 
 use crate::args::{InputArgs, TilesArgs};
 use crate::files;
+#[cfg(feature = "parquet")]
+use crate::message::lost;
 use crate::message::{Failure, grouped, note, say};
 use crate::stats::Stats;
 
@@ -45,6 +47,11 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     let made = build.run(&input(&args.input, args.heights)?, &args.output, &watch);
     let (store, _) = made.map_err(failure)?;
     drop(watch);
+    #[cfg(feature = "parquet")]
+    if let Some(crs) = store.crs().filter(|crs| args.parquet && !crs.is_said_by_geoparquet()) {
+        let folder = args.output.display();
+        lost(quiet, format_args!("{folder}: nothing in its tables says that their coordinates are {crs}"));
+    }
     tell(&store.summary(), &mut stats, quiet);
     stats.write(stats_path)
 }

@@ -10,7 +10,7 @@ use delone_store::Store;
 use super::{Watched, failure};
 use crate::args::WindowArgs;
 use crate::files;
-use crate::message::{Failure, grouped, say};
+use crate::message::{Failure, grouped, note, say};
 use crate::room;
 use crate::stats::Stats;
 
@@ -45,11 +45,19 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let trim = args.points.is_none().then(|| Trim::keeping(&d, |t| origin(t).is_some()));
     let regions: Option<Vec<f64>> = args.tiles.then(|| colors(&d, |t| origin(t).flatten()));
     stats.phase("build");
+    if points.is_empty() && summary.points > 0 && !args.box_.is_empty() {
+        let folder = args.folder.display();
+        let what = if args.points.is_some() { "point of" } else { "triangle of" };
+        note(quiet, format_args!("no {what} {folder} is in the box: the output is empty"));
+    }
     let shown = trim.as_ref().map_or(0, Trim::count);
     stats.set("points", summary.points);
     stats.set("vertices", points.len());
     stats.set("simplices", d.simplices().count() - shown);
+    let crs = store.crs();
+    files::keep_system(crs.as_ref(), &args.folder);
     let mesh = Mesh {
+        crs: crs.as_ref(),
         heights: store.has_heights().then_some(&heights[..]),
         regions: regions.as_deref(),
         trim: trim.as_ref(),
@@ -58,7 +66,10 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let options = picture::Options {
         size: args.size,
         links: if args.tiles { cut_lines(store.cuts(), &window, &points) } else { Vec::new() },
-        window: args.box_.first().map(|_| [window.low, window.high]),
+        // The border of the box, as far as the picture goes beyond it.
+        faint: if args.box_.is_empty() { Vec::new() } else { sides(&window) },
+        window: if args.box_.is_empty() { None } else { shown_window(&window, &points) },
+        legend: !args.tiles,
         ..picture::Options::default()
     };
     for (path, format) in &outputs {
@@ -76,11 +87,37 @@ fn window(args: &WindowArgs) -> Result<Region, Failure> {
     match args.box_[..] {
         [] => Ok(Region::ALL),
         [a, b, c, d] if a <= c && b <= d => Ok(Region { low: [a, b], high: [c, d] }),
+        [a, b, c, d] if a > c || b > d => {
+            let what =
+                format!("--box goes from {a:?},{b:?} to {c:?},{d:?}: its first corner is not the least");
+            let [x, y] = [[a.min(c), a.max(c)], [b.min(d), b.max(d)]];
+            let help = format!("--box {:?},{:?},{:?},{:?} is that box", x[0], y[0], x[1], y[1]);
+            Err(Failure::usage(what, help))
+        }
         _ => {
             let help = "as in --box 0,0,100,50: the least x and y, then the greatest";
             Err(Failure::usage("--box takes four numbers", help))
         }
     }
+}
+
+/// The sides of a box.
+fn sides(window: &Region) -> Vec<[[f64; 2]; 2]> {
+    let ([a, b], [c, d]) = (window.low, window.high);
+    vec![[[a, b], [c, b]], [[c, b], [c, d]], [[c, d], [a, d]], [[a, d], [a, b]]]
+}
+
+/// The part of the plane that a picture of a box shows: triangles across its border too, as far from it as it is wide or high.
+fn shown_window(window: &Region, points: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
+    let ends = |k: usize| {
+        let (low, high) = (window.low[k], window.high[k]);
+        let side = high - low;
+        let of_points = || points.iter().map(|p| p[k]);
+        [of_points().fold(low, f64::min).max(low - side), of_points().fold(high, f64::max).min(high + side)]
+    };
+    let [x, y] = [ends(0), ends(1)];
+    let is_finite = x.iter().chain(&y).all(|end| end.is_finite());
+    is_finite.then_some([[x[0], y[0]], [x[1], y[1]]])
 }
 
 /// For each triangle, by its index, a number for its tile; that of seams is another one.

@@ -386,6 +386,6 @@ pub(super) fn integers(count: usize) -> Set {
 /// A picture of lines and areas. Its bar is of a round length, which another unit makes another one.
 pub(super) fn drawn(g: &Given, name: &str) -> Vec<Shape> {
     let text = g.place.read(name);
-    let lines = text.lines().filter(|line| !line.starts_with("<text") && !line.contains("stroke=\"black\""));
+    let lines = text.lines().filter(|line| !line.starts_with("<text") && !line.contains("fill=\"#263238\""));
     lines.map(|line| line.bytes().map(f64::from).collect()).collect()
 }

@@ -3,6 +3,8 @@
 mod codes;
 pub(crate) mod esri;
 pub(crate) mod keys;
+#[cfg(feature = "parquet")]
+mod projjson;
 mod registry;
 mod units;
 
@@ -169,12 +171,12 @@ impl Crs {
     }
 
     /// Whether it is longitude and latitude as GeoJSON has them.
-    pub(crate) fn is_plain_degrees(&self) -> bool {
+    pub fn is_plain_degrees(&self) -> bool {
         self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")
     }
 
     /// The name that other programs understand: by its number, and that of its heights, or else its definition.
-    pub(crate) fn known_name(&self) -> Option<String> {
+    pub fn known_name(&self) -> Option<String> {
         let vertical = self.vertical.filter(|_| !self.is_compound());
         let by_number = self.epsg.map(|number| match vertical {
             Some(vertical) => format!("{PARTS}crs:EPSG::{number},crs:EPSG::{vertical}"),

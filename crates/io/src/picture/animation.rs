@@ -4,8 +4,11 @@ use std::io::Write;
 
 use delone::Triangulation;
 
-use super::view::View;
-use super::{Layers, Options, Sketch, check_size, png};
+use super::indexed::Indexed;
+use super::legend::Legend;
+use super::relief::Paint;
+use super::view::{Frame, View};
+use super::{Layers, Look, Options, Sketch, check_size, png};
 use crate::{Error, Mesh};
 
 /// An animated PNG being written, picture by picture.
@@ -15,7 +18,8 @@ pub struct Animation<W: Write> {
     /// Made from the first picture and kept, so that nothing jumps.
     style: Option<(View, Layers)>,
     size: [u32; 2],
-    /// The colors of the last picture.
+    indexed: Indexed,
+    /// The numbers of the colors of the last picture.
     last: Vec<u8>,
 }
 
@@ -39,17 +43,20 @@ impl<W: Write> Animation<W> {
         options: Options,
     ) -> Result<Self, Error> {
         check_size(options.size)?;
-        let view = View::around(window.into_iter(), options.size);
+        let view = View::around(window.into_iter(), &Frame::new(options.size, None));
         let mut encoder = ::png::Encoder::new(out, view.width, view.height);
-        encoder.set_color(::png::ColorType::Rgb);
+        let indexed = Indexed::new();
+        encoder.set_color(::png::ColorType::Indexed);
+        encoder.set_palette(indexed.bytes());
         encoder.set_depth(::png::BitDepth::Eight);
+        encoder.set_compression(::png::Compression::Balanced);
         // Lines on white paper repeat themselves best as they are.
         encoder.set_filter(::png::Filter::NoFilter);
         encoder.set_animated(pictures, 0).map_err(failed)?;
         encoder.set_frame_delay(milliseconds, 1000).map_err(failed)?;
         let writer = encoder.write_header().map_err(failed)?;
         let options = Options { window: Some(window), ..options };
-        Ok(Self { writer, options, style: None, size: [view.width, view.height], last: Vec::new() })
+        Ok(Self { writer, options, style: None, indexed, size: [view.width, view.height], last: Vec::new() })
     }
 
     /// Adds a picture.
@@ -58,12 +65,15 @@ impl<W: Write> Animation<W> {
     /// When there are more than were said, and when writing fails.
     pub fn add(&mut self, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Result<(), Error> {
         let (view, layers) = *self.style.get_or_insert_with(|| {
-            let view = View::of(mesh, &self.options);
+            let view = View::of(mesh, &self.options, &Frame::new(self.options.size, None));
             (view, Layers::choose(mesh, &view, &self.options))
         });
         debug_assert_eq!([view.width, view.height], self.size);
-        let canvas = png::draw(mesh, &view, layers, &self.options)?;
-        self.write(canvas.colors())
+        let paint = Paint::of(mesh, self.options.angles);
+        let legend = if layers.fill { Legend::of(mesh, &paint, &self.options) } else { Legend::None };
+        let look = Look { view: &view, layers, options: &self.options, paint: &paint, legend: &legend };
+        let canvas = png::draw(mesh, &look)?;
+        self.write(&canvas.colors())
     }
 
     /// Adds a sketch.
@@ -72,18 +82,18 @@ impl<W: Write> Animation<W> {
     /// As [`Self::add`].
     pub fn sketch(&mut self, sketch: &Sketch) -> Result<(), Error> {
         let window = self.options.window.into_iter().flatten();
-        let canvas = sketch.draw(&View::around(window, self.options.size))?;
-        self.write(canvas.colors())
+        let canvas = sketch.draw(&View::around(window, &Frame::new(self.options.size, None)))?;
+        self.write(&canvas.colors())
     }
 
     /// Writes what has changed since the last picture: the smallest box around it.
-    fn write(&mut self, colors: Vec<u8>) -> Result<(), Error> {
+    fn write(&mut self, colors: &[u8]) -> Result<(), Error> {
         let width = self.size[0] as usize;
+        let colors = self.indexed.numbers(colors);
         if self.last.is_empty() {
             self.writer.write_image_data(&colors).map_err(failed)?;
         } else {
-            let old = self.last.chunks_exact(3);
-            let changed = colors.chunks_exact(3).zip(old).enumerate().filter(|(_, (new, old))| new != old);
+            let changed = colors.iter().zip(&self.last).enumerate().filter(|(_, (new, old))| new != old);
             // A picture has a pixel at least.
             let (mut low, mut high) = ([width - 1, self.size[1] as usize - 1], [0, 0]);
             for (i, _) in changed {
@@ -96,7 +106,7 @@ impl<W: Write> Animation<W> {
             self.writer.set_frame_position(0, 0).map_err(failed)?;
             self.writer.set_frame_dimension(across as u32, down as u32).map_err(failed)?;
             self.writer.set_frame_position(low[0] as u32, low[1] as u32).map_err(failed)?;
-            let rows = (low[1]..=high[1]).map(|y| 3 * (y * width + low[0])..3 * (y * width + high[0] + 1));
+            let rows = (low[1]..=high[1]).map(|y| y * width + low[0]..y * width + high[0] + 1);
             let part: Vec<u8> = rows.flat_map(|row| colors[row].iter().copied()).collect();
             self.writer.write_image_data(&part).map_err(failed)?;
         }

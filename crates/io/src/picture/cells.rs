@@ -5,10 +5,11 @@ use std::io::Write;
 use delone::Ring;
 
 use super::color::{DENSITY, Density, EDGE, PAPER, POINT, Rgb};
+use super::legend::Legend;
 use super::png::Canvas;
 use super::raster::Raster;
-use super::svg::hex;
-use super::view::View;
+use super::svg::{Pen, RAMP_STEPS, SEAM_WIDTH, hex, open_parts};
+use super::view::{Frame, View};
 use crate::diagram::Tiles;
 use crate::{Error, Format};
 
@@ -37,7 +38,7 @@ pub(crate) fn write(
 
 impl Style {
     fn of(diagram: &impl Tiles, size: u32) -> Self {
-        let view = View::around(diagram.corners(), size);
+        let view = View::around(diagram.corners(), &Frame::new(size, diagram.crs()));
         let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v)).collect();
         areas.sort_by(f64::total_cmp);
         // A few outliers must not take all of the colors.
@@ -63,6 +64,10 @@ impl Style {
     fn dot_radius(&self) -> Option<f64> {
         (self.spacing > 12.0).then(|| (self.spacing / 12.0).clamp(1.0, 3.5))
     }
+}
+
+fn legend() -> Legend {
+    Legend::words(&DENSITY, ["large cells", "", "small"])
 }
 
 /// The sites that are on what is drawn.
@@ -95,31 +100,39 @@ fn png(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> Result<(), E
             canvas.dots(positions, radius, color, 255);
         }
     }
-    canvas.legend(view, &DENSITY, "large cells", "small");
-    canvas.scale(view);
+    canvas.strip(&legend().pieces(view));
     canvas.encode(out)
 }
 
 fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Result<()> {
     let view = &style.view;
     super::svg::open(out, view)?;
-    let outline = if style.outlines() { hex(EDGE) } else { "none".to_owned() };
-    writeln!(
-        out,
-        r#"<g stroke="{outline}" stroke-width="{:.2}" stroke-linejoin="round" fill-rule="evenodd">"#,
-        style.line_width()
-    )?;
-    for v in diagram.present() {
-        let area = diagram.area(v);
-        write!(out, r#"<path fill="{}" d=""#, hex(style.color(area)))?;
-        for ring in diagram.rings(v) {
-            for (i, p) in ring.points().enumerate() {
-                let [x, y] = view.place(p);
-                write!(out, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' })?;
-            }
-            write!(out, "Z")?;
+    let draw = |out: &mut dyn Write, pen: &mut Pen, tile| {
+        diagram.rings(tile).try_for_each(|ring| pen.ring(out, ring.points().map(|p| view.place(p))))
+    };
+    if style.outlines() {
+        open_parts(out, style.line_width())?;
+        writeln!(out, r#" stroke="{}" fill-rule="evenodd">"#, hex(EDGE))?;
+        for tile in diagram.present() {
+            write!(out, r#"<path fill="{}" d=""#, hex(style.color(diagram.area(tile))))?;
+            draw(out, &mut Pen::default(), tile)?;
+            writeln!(out, r#""><title>{}</title></path>"#, diagram.title(tile))?;
         }
-        writeln!(out, r#""><title>{}</title></path>"#, diagram.title(v))?;
+    } else {
+        // Too many to be pointed at: those of one color together.
+        let shade = |tile| (style.density.of(diagram.area(tile)) * RAMP_STEPS).round() as u32;
+        let mut tiles: Vec<(u32, usize, _)> =
+            diagram.present().enumerate().map(|(i, tile)| (shade(tile), i, tile)).collect();
+        tiles.sort_unstable_by_key(|&(shade, i, _)| (shade, i));
+        open_parts(out, SEAM_WIDTH)?;
+        writeln!(out, r#" fill-rule="evenodd">"#)?;
+        for alike in tiles.chunk_by(|a, b| a.0 == b.0) {
+            let color = hex(DENSITY.at(f64::from(alike[0].0) / RAMP_STEPS));
+            write!(out, r#"<path fill="{color}" stroke="{color}" d=""#)?;
+            let mut pen = Pen::default();
+            alike.iter().try_for_each(|&(.., tile)| draw(out, &mut pen, tile))?;
+            writeln!(out, r#""/>"#)?;
+        }
     }
     writeln!(out, "</g>")?;
     if let Some(radius) = style.dot_radius() {
@@ -129,6 +142,6 @@ fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Res
             writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{color}"/>"#)?;
         }
     }
-    super::svg::scale(out, view)?;
+    super::svg::strip(out, &legend().pieces(view))?;
     writeln!(out, "</svg>")
 }

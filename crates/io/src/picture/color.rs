@@ -13,17 +13,6 @@ pub(super) const DISK: Rgb = [187, 222, 251];
 pub(super) const LINK: Rgb = [46, 125, 50];
 pub(super) const CONSTRAINT: Rgb = [33, 33, 33];
 
-/// Light colors of many kinds.
-pub(super) fn numbered(k: usize) -> Rgb {
-    // Steps of the golden ratio around the circle of colors never come back.
-    let turn = |offset: f64| {
-        let t = (k as f64 * 0.618_034 + offset).fract();
-        let wave = (std::f64::consts::TAU * t).cos();
-        (200.0 + 50.0 * wave) as u8
-    };
-    [turn(0.0), turn(1.0 / 3.0), turn(2.0 / 3.0)]
-}
-
 /// Equally spaced colors, interpolated.
 pub(super) struct Ramp(&'static [Rgb]);
 
@@ -48,6 +37,11 @@ pub(super) const ANGLE: Ramp =
     Ramp(&[[60, 10, 40], [150, 30, 70], [214, 84, 66], [243, 153, 73], [250, 214, 130], [252, 248, 220]]);
 
 impl Ramp {
+    /// Its colors.
+    pub(super) fn colors(&self) -> &'static [Rgb] {
+        self.0
+    }
+
     /// The color at `t` from 0 to 1.
     pub(super) fn at(&self, t: f64) -> Rgb {
         let last = self.0.len() - 1;

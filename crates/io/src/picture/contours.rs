@@ -5,10 +5,11 @@ use std::io::Write;
 use delone::surface::{ContourBand, ContourLine};
 
 use super::color::{EDGE, HEIGHT, INK, PAPER, Rgb};
+use super::legend::Legend;
 use super::png::Canvas;
 use super::raster::Raster;
-use super::svg::{hex, open, scale};
-use super::view::View;
+use super::svg::{hex, open, strip};
+use super::view::{Frame, View};
 use crate::{ContourMap, Error, Format};
 
 /// The width of lines in pixels, and of each fifth level.
@@ -22,7 +23,7 @@ pub(crate) fn write_contours(
     size: u32,
 ) -> Result<(), Error> {
     super::check_size(size)?;
-    let view = View::around(map.points(), size);
+    let view = View::around(map.points(), &Frame::new(size, map.crs));
     match format {
         Format::Svg => Ok(svg(out, map, &view)?),
         _ => png(out, map, &view),
@@ -41,6 +42,11 @@ fn lines<'a>(map: &ContourMap<'a>) -> Vec<(&'a ContourLine, f64)> {
     levels.dedup();
     let number = |level: f64| levels.partition_point(|&other| other < level);
     map.lines.iter().map(|line| (line, WIDTHS[usize::from(number(line.level).is_multiple_of(5))])).collect()
+}
+
+/// Lines alone have one color.
+fn legend(map: &ContourMap<'_>) -> Legend {
+    if map.bands.is_empty() { Legend::None } else { Legend::heights(&HEIGHT, map.range(), map.crs) }
 }
 
 fn ink(map: &ContourMap<'_>) -> Rgb {
@@ -66,7 +72,7 @@ fn png(out: &mut dyn Write, map: &ContourMap<'_>, view: &View) -> Result<(), Err
     for (line, width) in lines(map) {
         canvas.lines(sides(line).map(|side| side.map(|p| view.place(p))), ink(map), 255, width);
     }
-    canvas.scale(view);
+    canvas.strip(&legend(map).pieces(view));
     canvas.encode(out)
 }
 
@@ -92,6 +98,6 @@ fn svg(out: &mut dyn Write, map: &ContourMap<'_>, view: &View) -> std::io::Resul
         writeln!(out, r#""><title>{:?}</title></path>"#, line.level)?;
     }
     writeln!(out, "</g>")?;
-    scale(out, view)?;
+    strip(out, &legend(map).pieces(view))?;
     writeln!(out, "</svg>")
 }

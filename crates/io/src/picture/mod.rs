@@ -12,9 +12,13 @@ mod animation;
 mod cells;
 mod color;
 mod contours;
+mod indexed;
+mod legend;
+mod palette;
 mod png;
 mod raster;
 mod relief;
+mod ruler;
 mod sketch;
 mod solid;
 mod svg;
@@ -31,15 +35,17 @@ use std::io::Write;
 
 use delone::Triangulation;
 
-use crate::{Error, Format, Mesh};
-use view::View;
+use crate::{Crs, Error, Format, Mesh};
+use legend::Legend;
+use relief::Paint;
+use view::{Frame, View};
 
 /// Options of a drawing. `None` leaves a choice to the room there is.
 ///
 /// Fields may be added: a literal ends with `..` and a value to take the rest from.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The longer side in pixels.
+    /// The longer side in pixels, with the scale and the legend below.
     pub size: u32,
     /// In space, where it is seen from.
     pub camera: Camera,
@@ -61,6 +67,10 @@ pub struct Options {
     pub angles: bool,
     /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
+    /// Below the drawing, the value or the name of each region beside its color.
+    pub legend: bool,
+    /// The system of coordinates, if the mesh has none: longitude and latitude are drawn in the shape that they have on the ground.
+    pub crs: Option<Crs>,
 }
 
 impl Default for Options {
@@ -77,6 +87,8 @@ impl Default for Options {
             outside: false,
             angles: false,
             window: None,
+            legend: true,
+            crs: None,
         }
     }
 }
@@ -122,6 +134,15 @@ impl Layers {
     }
 }
 
+/// How a triangulation is drawn.
+struct Look<'a> {
+    view: &'a View,
+    layers: Layers,
+    options: &'a Options,
+    paint: &'a Paint<'a>,
+    legend: &'a Legend,
+}
+
 /// Draws a triangulation of the plane.
 pub(crate) fn write(
     out: &mut dyn Write,
@@ -130,11 +151,16 @@ pub(crate) fn write(
     options: &Options,
 ) -> Result<(), Error> {
     check_size(options.size)?;
-    let view = View::of(mesh, options);
+    let paint = Paint::of(mesh, options.angles);
+    let legend = Legend::of(mesh, &paint, options);
+    let frame = Frame::new(options.size, mesh.crs.or(options.crs.as_ref()));
+    let view = legend.fit(frame, |frame| View::of(mesh, options, frame));
     let layers = Layers::choose(mesh, &view, options);
+    let legend = if layers.fill { legend } else { Legend::None };
+    let look = Look { view: &view, layers, options, paint: &paint, legend: &legend };
     match format {
-        Format::Svg => Ok(svg::write(out, mesh, &view, layers, options)?),
-        _ => png::draw(mesh, &view, layers, options)?.encode(out),
+        Format::Svg => Ok(svg::write(out, mesh, &look)?),
+        _ => png::draw(mesh, &look)?.encode(out),
     }
 }
 

@@ -9,31 +9,31 @@ use tiny_skia::{
     Transform,
 };
 
-use super::color::{CONSTRAINT, DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
+use super::Look;
+use super::color::{CONSTRAINT, DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Rgb};
+use super::legend::{Anchor, Piece};
+use super::palette::region_pixel;
 use super::raster::Raster;
 use super::relief::{Paint, area};
 use super::view::View;
-use super::{Layers, Options};
 use crate::{Error, Mesh, Shape};
 
 /// Draws a triangulation.
 pub(super) fn draw(
     mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
-    view: &View,
-    layers: Layers,
-    options: &Options,
+    look: &Look<'_>,
 ) -> Result<Canvas, Error> {
+    let &Look { view, layers, options, paint, legend } = look;
     let d = mesh.triangulation;
-    let paint = Paint::of(mesh, options.angles);
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if layers.fill {
-        fill(&mut raster, mesh, view, &paint);
+        fill(&mut raster, mesh, view, paint);
     }
     let mut canvas = Canvas::from(&raster)?;
     drop(raster);
     let vertices = || d.vertices().map(|v| view.place(mesh.point(v)));
     if let Some(radius) = options.disks {
-        canvas.dots(vertices(), view.length(radius), DISK, 180);
+        canvas.ovals(vertices(), view.length(radius), DISK, 180);
     }
     let faint = options.faint.iter().map(|line| line.map(|p| view.place(p)));
     canvas.lines(faint, FAINT, 255, layers.line_width());
@@ -53,7 +53,7 @@ pub(super) fn draw(
     if layers.points || d.vertex_count() < 3 {
         canvas.dots(vertices(), layers.point_radius(), POINT, 255);
     }
-    canvas.strip(view, &paint, layers.fill);
+    canvas.strip(&legend.pieces(view));
     Ok(canvas)
 }
 
@@ -63,9 +63,13 @@ fn fill(raster: &mut Raster, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, 
         let corners = points.map(|p| view.place(p));
         let values = paint.corners(i, triangle, area(points));
         raster.dot(corners[0], paint.color(values[0]));
-        raster.triangle(corners, values, |value| paint.color(value));
+        raster.triangle(corners, values, |value, pixel| paint.pixel(value, pixel));
     }
 }
+
+/// How letters look.
+const WEIGHT: FontWeight = FontWeight::Regular;
+const HEIGHT: RasterHeight = RasterHeight::Size20;
 
 /// The picture in tiny-skia's hands.
 pub(super) struct Canvas(Pixmap);
@@ -146,9 +150,29 @@ impl Canvas {
         color: Rgb,
         alpha: u8,
     ) {
+        self.ovals(positions, [radius; 2], color, alpha);
+    }
+
+    /// An ellipse around each position.
+    fn ovals(
+        &mut self,
+        positions: impl Iterator<Item = [f64; 2]>,
+        [across, down]: [f64; 2],
+        color: Rgb,
+        alpha: u8,
+    ) {
         for [x, y] in positions {
             let mut path = PathBuilder::new();
-            path.push_circle(x as f32, y as f32, radius as f32);
+            if across == down {
+                path.push_circle(x as f32, y as f32, across as f32);
+            } else if let Some(around) = Rect::from_ltrb(
+                (x - across) as f32,
+                (y - down) as f32,
+                (x + across) as f32,
+                (y + down) as f32,
+            ) {
+                path.push_oval(around);
+            }
             if let Some(path) = path.finish() {
                 self.0.fill_path(
                     &path,
@@ -191,44 +215,45 @@ impl Canvas {
         }
     }
 
-    /// Legend and scale below the drawing.
-    fn strip(&mut self, view: &View, paint: &Paint, filled: bool) {
-        if let Some(ramp) = paint.ramp().filter(|_| filled) {
-            let (low, high) = match paint {
-                Paint::Relief(relief) => (Short(relief.low).to_string(), Short(relief.high).to_string()),
-                Paint::Angles(_) => ("0".to_owned(), "60 degrees".to_owned()),
-                _ => ("sparse".to_owned(), "dense".to_owned()),
-            };
-            self.legend(view, ramp, &low, &high);
-        }
-        self.scale(view);
-    }
-
-    /// The legend of the colors.
-    pub(super) fn legend(&mut self, view: &View, ramp: &Ramp, low: &str, high: &str) {
-        let Some(top) = view.strip() else { return };
-        let (baseline, margin) = (top + 14.0, 24.0);
-        let bar = (f64::from(view.width) / 4.0).min(360.0);
-        for i in 0..bar as u32 {
-            let color = ramp.at(f64::from(i) / bar);
-            self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], color);
-        }
-        self.text([margin, baseline + 16.0], low);
-        self.text([margin + bar - text_width(high), baseline + 16.0], high);
-    }
-
-    /// How long things are.
-    pub(super) fn scale(&mut self, view: &View) {
-        let Some(top) = view.strip() else { return };
-        let (baseline, margin, width) = (top + 14.0, 24.0, f64::from(view.width));
-        if let Some((length, pixels)) = view.scale_bar() {
-            let left = width - margin - pixels;
-            self.rectangle([left, baseline + 4.0], [pixels, 3.0], INK);
-            for x in [left, left + pixels - 2.0] {
-                self.rectangle([x, baseline], [2.0, 11.0], INK);
+    /// The strip below the drawing.
+    pub(super) fn strip(&mut self, pieces: &[Piece]) {
+        for piece in pieces {
+            match piece {
+                Piece::Rectangle { at, size, color } => self.rectangle(*at, *size, *color),
+                Piece::Ramp { at, size, ramp } => {
+                    for i in 0..size[0] as u32 {
+                        let color = ramp.at(f64::from(i) / size[0]);
+                        self.rectangle([at[0] + f64::from(i), at[1]], [1.0, size[1]], color);
+                    }
+                }
+                Piece::Region { at, size, number } => {
+                    let [left, top] = at.map(|x| x as usize);
+                    for y in top..top + size[1] as usize {
+                        for x in left..left + size[0] as usize {
+                            self.pixel([x, y], region_pixel(*number, [x, y]));
+                        }
+                    }
+                }
+                Piece::Text { at, anchor, text } => {
+                    let back = match anchor {
+                        Anchor::Start => 0.0,
+                        Anchor::Middle => text_width(text) / 2.0,
+                        Anchor::End => text_width(text),
+                    };
+                    self.text([at[0] - back, at[1]], text);
+                }
             }
-            let label = format!("{}", Short(length));
-            self.text([left + (pixels - text_width(&label)) / 2.0, baseline + 16.0], &label);
+        }
+    }
+
+    /// Colors a pixel, if it is there.
+    fn pixel(&mut self, [x, y]: [usize; 2], [r, g, b]: Rgb) {
+        let (width, height) = (self.0.width() as usize, self.0.height() as usize);
+        if x < width
+            && y < height
+            && let Some(color) = PremultipliedColorU8::from_rgba(r, g, b, 255)
+        {
+            self.0.pixels_mut()[y * width + x] = color;
         }
     }
 
@@ -238,23 +263,17 @@ impl Canvas {
         }
     }
 
+    /// A line of text.
     pub(super) fn text(&mut self, [x, y]: [f64; 2], text: &str) {
-        let (width, height) = (self.0.width() as usize, self.0.height() as usize);
         let mut left = x.max(0.0) as usize;
         for character in text.chars() {
-            let Some(glyph) = get_raster(character, FontWeight::Regular, RasterHeight::Size20) else {
-                continue;
-            };
+            // Nothing is left out in silence.
+            let known = [character, '?'].into_iter().find_map(|c| get_raster(c, WEIGHT, HEIGHT));
+            let Some(glyph) = known else { continue };
             for (row, line) in glyph.rows().enumerate() {
-                for (column, &coverage) in line.iter().enumerate() {
-                    let (px, py) = (left + column, y as usize + row);
-                    if coverage == 0 || px >= width || py >= height {
-                        continue;
-                    }
+                for (column, &coverage) in line.iter().enumerate().filter(|(_, coverage)| **coverage > 0) {
                     let mixed = super::color::mix(PAPER, INK, f64::from(coverage) / 255.0);
-                    if let Some(pixel) = PremultipliedColorU8::from_rgba(mixed[0], mixed[1], mixed[2], 255) {
-                        self.0.pixels_mut()[py * width + px] = pixel;
-                    }
+                    self.pixel([left + column, y as usize + row], mixed);
                 }
             }
             left += glyph.width();
@@ -262,32 +281,7 @@ impl Canvas {
     }
 }
 
-fn text_width(text: &str) -> f64 {
-    (text.len() * get_raster_width(FontWeight::Regular, RasterHeight::Size20)) as f64
-}
-
-/// A number for a label: few digits, an exponent only where it is needed.
-struct Short(f64);
-
-impl std::fmt::Display for Short {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let magnitude = self.0.abs();
-        if magnitude != 0.0 && !(1e-3..1e6).contains(&magnitude) {
-            return write!(
-                f,
-                "{:e}",
-                (self.0 / 10f64.powf(magnitude.log10().floor())).round()
-                    * 10f64.powf(magnitude.log10().floor())
-            );
-        }
-        let digits = if magnitude >= 100.0 {
-            0
-        } else if magnitude >= 1.0 {
-            1
-        } else {
-            4
-        };
-        let text = format!("{:.digits$}", self.0);
-        f.write_str(if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
-    }
+/// The pixels that a text takes.
+pub(super) fn text_width(text: &str) -> f64 {
+    (text.chars().count() * get_raster_width(WEIGHT, HEIGHT)) as f64
 }

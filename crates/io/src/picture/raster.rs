@@ -21,7 +21,7 @@ impl Raster {
         &mut self,
         corners: [[f64; 2]; 3],
         values: [[f64; 2]; 3],
-        color: impl Fn([f64; 2]) -> Rgb,
+        color: impl Fn([f64; 2], [usize; 2]) -> Rgb,
     ) {
         let [a, b, c] = corners;
         let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
@@ -43,7 +43,7 @@ impl Raster {
                 let weights = [cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area];
                 if weights.iter().all(|&w| w >= 0.0) {
                     let value = [0, 1].map(|k| (0..3).map(|i| weights[i] * values[i][k]).sum());
-                    self.pixels[y * self.width + x] = color(value);
+                    self.pixels[y * self.width + x] = color(value, [x, y]);
                 }
             }
         }

@@ -2,7 +2,8 @@
 
 use delone::Triangulation;
 
-use super::color::{ANGLE, DENSITY, Density, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
+use super::color::{ANGLE, DENSITY, Density, HEIGHT, Ramp, Rgb, shade};
+use super::palette::{region_color, region_pixel};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
@@ -13,8 +14,11 @@ pub(super) enum Paint<'a> {
     Relief(Relief<'a>),
     /// By the area.
     Density(Density),
-    /// By the number of the region of each triangle.
-    Regions(Vec<usize>),
+    /// By the number of the region of each triangle, among the known values in their order.
+    Regions {
+        numbers: Vec<usize>,
+        known: Vec<f64>,
+    },
     /// By the smallest angle of each triangle, as a part of 60 degrees.
     Angles(Vec<f64>),
 }
@@ -56,15 +60,15 @@ impl<'a> Paint<'a> {
         known.sort_unstable_by(f64::total_cmp);
         known.dedup_by(|a, b| a.total_cmp(b).is_eq());
         let number = |value: &f64| known.binary_search_by(|other| other.total_cmp(value)).unwrap_or_default();
-        Self::Regions(values.iter().map(number).collect())
+        Self::Regions { numbers: values.iter().map(number).collect(), known }
     }
 
-    /// The colors and what the ends of them mean, if there is an order.
-    pub(super) fn ramp(&self) -> Option<&'static Ramp> {
+    /// The colors, if there is an order.
+    fn ramp(&self) -> Option<&'static Ramp> {
         match self {
             Self::Relief(_) => Some(&HEIGHT),
             Self::Density(_) => Some(&DENSITY),
-            Self::Regions(_) => None,
+            Self::Regions { .. } => None,
             Self::Angles(_) => Some(&ANGLE),
         }
     }
@@ -73,7 +77,7 @@ impl<'a> Paint<'a> {
     /// the brightness.
     pub(super) fn corners(&self, i: usize, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
         match self {
-            Self::Regions(numbers) => [[numbers[i] as f64, 1.0]; 3],
+            Self::Regions { numbers, .. } => [[numbers[i] as f64, 1.0]; 3],
             Self::Angles(shares) => [[shares[i], 1.0]; 3],
             Self::Relief(relief) => triangle.map(|i| [relief.value(i), relief.light[i]]),
             Self::Density(density) => [[density.of(area), 1.0]; 3],
@@ -83,10 +87,20 @@ impl<'a> Paint<'a> {
     /// The color of a value and a brightness.
     pub(super) fn color(&self, [value, light]: [f64; 2]) -> Rgb {
         // The mean of equal numbers may be off by a little.
-        self.ramp().map_or_else(
-            || mix(numbered(value.round() as usize), PAPER, 0.3),
-            |ramp| shade(ramp.at(value), light),
-        )
+        self.ramp().map_or_else(|| region_color(value.round() as usize), |ramp| shade(ramp.at(value), light))
+    }
+
+    /// The color of a pixel, which may be one of hatching.
+    pub(super) fn pixel(&self, value: [f64; 2], at: [usize; 2]) -> Rgb {
+        match self {
+            Self::Regions { .. } => region_pixel(value[0].round() as usize, at),
+            _ => self.color(value),
+        }
+    }
+
+    /// The number of a region, where colors are those of regions.
+    pub(super) fn region(&self, value: f64) -> Option<usize> {
+        matches!(self, Self::Regions { .. }).then(|| value.round() as usize)
     }
 }
 

@@ -2,13 +2,15 @@
 
 use std::io::Write;
 
-use super::color::{EDGE, INK, LINK, POINT, Rgb, numbered};
+use super::color::{EDGE, INK, LINK, POINT, Rgb};
+use super::legend::Legend;
+use super::palette::region_color;
 use super::png::Canvas;
 use super::raster::Raster;
-use super::svg::{hex, open};
-use super::view::View;
+use super::svg::{Pen, escaped, hex, open, open_parts, strip};
+use super::view::{Frame, View};
 use super::{check_size, color};
-use crate::{Error, Format};
+use crate::{Crs, Error, Format};
 
 /// The role of something in a sketch, which decides its color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +32,7 @@ pub enum Tone {
 
 impl Tone {
     /// Told apart by everyone (Okabe and Ito's palette).
-    fn color(self) -> Rgb {
+    pub(super) fn color(self) -> Rgb {
         match self {
             Self::Faint => [205, 214, 219],
             Self::Plain => EDGE,
@@ -60,20 +62,34 @@ pub enum Mark {
     Ring([f64; 2], f64, Tone),
 }
 
+impl Mark {
+    /// Whether both are one path in a vector picture.
+    fn is_drawn_with(&self, next: &Self) -> bool {
+        match (self, next) {
+            (Self::Patch(_, k), Self::Patch(_, l)) => k == l,
+            (Self::Line(_, tone), Self::Line(_, other)) => tone == other,
+            _ => false,
+        }
+    }
+}
+
 /// The drawn things, from the bottom to the top.
 #[derive(Clone, Debug, Default)]
 pub struct Sketch {
     /// The marks.
     pub marks: Vec<Mark>,
-    /// A line below.
+    /// A line below; without it there is a scale bar.
     pub caption: String,
+    /// The system of coordinates, in which longitude and latitude are drawn in the shape that they have on the ground.
+    pub crs: Option<Crs>,
 }
 
 /// Widths in pixels, of a picture 600 pixels wide.
 const LINE: f64 = 1.2;
 const DOT: f64 = 3.0;
 
-fn dark(color: Rgb) -> Rgb {
+/// The color of a dot that has that of an area.
+pub(super) fn dark(color: Rgb) -> Rgb {
     color::shade(color, 0.6)
 }
 
@@ -92,7 +108,7 @@ impl Sketch {
                 Mark::Area(corners, tone) => {
                     canvas.fill(&ring(corners), color::mix(tone.color(), color::PAPER, 0.35));
                 }
-                Mark::Patch(corners, k) => canvas.fill(&ring(corners), numbered(*k)),
+                Mark::Patch(corners, k) => canvas.fill(&ring(corners), region_color(*k)),
                 Mark::Line(ends, tone) => {
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE };
                     let line = ends.map(|p| view.place(p));
@@ -103,7 +119,7 @@ impl Sketch {
                     canvas.dots(std::iter::once(view.place(*p)), radius * scale, dot_color(*tone), 255);
                 }
                 Mark::Spot(p, k) => {
-                    canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(numbered(*k)), 255);
+                    canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(region_color(*k)), 255);
                 }
                 Mark::Ring(p, radius, tone) => {
                     let circle = polygon(*p, *radius).map(|p| view.place(p));
@@ -112,7 +128,9 @@ impl Sketch {
                 }
             }
         }
-        if let Some(top) = view.strip() {
+        if self.caption.is_empty() {
+            canvas.strip(&Legend::None.pieces(view));
+        } else if let Some(top) = view.strip() {
             canvas.text([24.0, top + 14.0], &self.caption);
         }
         Ok(canvas)
@@ -121,27 +139,39 @@ impl Sketch {
     fn svg(&self, out: &mut dyn Write, view: &View) -> std::io::Result<()> {
         open(out, view)?;
         let scale = f64::from(view.width.max(view.height)) / 600.0;
-        for mark in &self.marks {
-            match mark {
+        for alike in self.marks.chunk_by(Mark::is_drawn_with) {
+            match &alike[0] {
                 Mark::Area(corners, tone) => area(out, view, corners, tone.color(), 0.65)?,
-                Mark::Patch(corners, k) => area(out, view, corners, numbered(*k), 1.0)?,
-                Mark::Line(ends, tone) => {
-                    let [[ax, ay], [bx, by]] = ends.map(|p| view.place(p));
+                Mark::Patch(_, k) => {
+                    open_parts(out, 0.0)?;
+                    write!(out, r#"><path fill="{}" d=""#, hex(region_color(*k)))?;
+                    let mut pen = Pen::default();
+                    for mark in alike {
+                        let Mark::Patch(corners, _) = mark else { continue };
+                        pen.ring(out, corners.iter().map(|&p| view.place(p)))?;
+                    }
+                    writeln!(out, r#""/></g>"#)?;
+                }
+                Mark::Line(_, tone) => {
                     let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE } * scale;
+                    open_parts(out, width)?;
                     let color = hex(line_color(*tone));
-                    writeln!(
-                        out,
-                        r#"<path stroke="{color}" stroke-width="{width:.2}" stroke-linecap="round" d="M{ax:.2} {ay:.2}L{bx:.2} {by:.2}"/>"#
-                    )?;
+                    write!(out, r#"><path fill="none" stroke="{color}" stroke-linecap="round" d=""#)?;
+                    let mut pen = Pen::default();
+                    for mark in alike {
+                        let Mark::Line(ends, _) = mark else { continue };
+                        pen.line(out, ends.iter().map(|&p| view.place(p)))?;
+                    }
+                    writeln!(out, r#""/></g>"#)?;
                 }
                 Mark::Dot(p, tone) => {
                     let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT } * scale;
                     dot(out, view, *p, radius, dot_color(*tone))?;
                 }
-                Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(numbered(*k)))?,
+                Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(region_color(*k)))?,
                 Mark::Ring(p, radius, tone) => {
                     let [x, y] = view.place(*p);
-                    let (r, color) = (view.length(*radius), hex(line_color(*tone)));
+                    let ([r, _], color) = (view.length(*radius), hex(line_color(*tone)));
                     writeln!(
                         out,
                         r#"<circle cx="{x:.2}" cy="{y:.2}" r="{r:.2}" fill="none" stroke="{color}" stroke-width="{:.2}"/>"#,
@@ -150,12 +180,14 @@ impl Sketch {
                 }
             }
         }
-        if let Some(top) = view.strip() {
+        if self.caption.is_empty() {
+            strip(out, &Legend::None.pieces(view))?;
+        } else if let Some(top) = view.strip() {
             writeln!(
                 out,
                 r#"<text x="24" y="{:.1}" font-family="sans-serif" font-size="18">{}</text>"#,
                 top + 30.0,
-                self.caption.replace('&', "&amp;").replace('<', "&lt;")
+                escaped(&self.caption)
             )?;
         }
         writeln!(out, "</svg>")
@@ -216,7 +248,7 @@ pub fn write_sketch(
     size: u32,
 ) -> Result<(), Error> {
     check_size(size)?;
-    let view = View::around(window.into_iter(), size);
+    let view = View::around(window.into_iter(), &Frame::new(size, sketch.crs.as_ref()));
     match format {
         Format::Svg => Ok(sketch.svg(out, &view)?),
         _ => sketch.draw(&view)?.encode(out),

@@ -4,10 +4,11 @@ use std::io::Write;
 
 use super::Options;
 use super::color::{PAPER, POINT, Rgb, shade};
+use super::legend::Legend;
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
-use super::view::View;
+use super::view::{Frame, View};
 use crate::{Error, Format, Solid};
 
 /// The color of a face in full light, and of one that a cut has laid open.
@@ -84,7 +85,7 @@ pub(crate) fn write(
     // Sums of coordinates must not overflow.
     let half = if largest > f64::MAX / 8.0 { 0.125 } else { 1.0 };
     let turned: Vec<[f64; 3]> = solid.points.iter().map(|p| axes.turn(p.map(|x| x * half))).collect();
-    let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), options.size);
+    let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), &Frame::new(options.size, None));
     let mut faces: Vec<Visible> =
         (0..solid.faces.len()).filter_map(|i| Visible::of(solid, i, &turned, &view, camera)).collect();
     faces.sort_by(|f, g| f.depth.total_cmp(&g.depth));
@@ -143,7 +144,7 @@ fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
         for face in faces {
             raster.dot(face.corners[0], face.color);
             for side in face.corners[1..].windows(2) {
-                raster.triangle([face.corners[0], side[0], side[1]], [[0.0; 2]; 3], |_| face.color);
+                raster.triangle([face.corners[0], side[0], side[1]], [[0.0; 2]; 3], |_, _| face.color);
             }
         }
     }
@@ -159,7 +160,7 @@ fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
     }
     canvas.dots(dots.iter().copied(), DOT, POINT, 255);
     if style.to_scale {
-        canvas.scale(view);
+        canvas.strip(&Legend::None.pieces(view));
     }
     canvas.encode(out)
 }
@@ -181,7 +182,7 @@ fn svg(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) ->
     }
     writeln!(out, "</g>")?;
     if style.to_scale {
-        super::svg::scale(out, view)?;
+        super::svg::strip(out, &Legend::None.pieces(view))?;
     }
     writeln!(out, "</svg>")
 }

@@ -62,7 +62,7 @@ pub(super) fn flips(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
         let mut marks = base.clone();
         marks.push(Mark::Area(corners(&before, first), Tone::Seen));
         marks.push(Mark::Dot(p, Tone::Goal));
-        sketches.push(Sketch { marks, caption: caption("its triangle") });
+        sketches.push(Sketch { marks, caption: caption("its triangle"), ..Sketch::default() });
         loop {
             let border = border(&star);
             // What is next across an edge of the star, and in conflict.
@@ -88,7 +88,7 @@ pub(super) fn flips(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
                 (Some(_), _) => caption("flipped, and another one in conflict"),
                 (None, _) => caption("no conflict is left"),
             };
-            sketches.push(Sketch { marks, caption });
+            sketches.push(Sketch { marks, caption, ..Sketch::default() });
             let Some(next) = next else { break };
             doomed.remove(&next);
             star.push(next);
@@ -154,7 +154,7 @@ pub(super) fn lists(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
         marks.push(Mark::Dot(d.point(v), Tone::Goal));
         let caption =
             format!("{} inserted, {} to come, {changed} of them in other lists", i + 1, points.len() - i - 1);
-        sketches.push(Sketch { marks, caption });
+        sketches.push(Sketch { marks, caption, ..Sketch::default() });
     }
     Ok(sketches)
 }
@@ -188,7 +188,7 @@ pub(super) fn hints(centers: &[[f64; 2]], radius: f64, seed: u64, most: usize) -
             marks.push(Mark::Line([instance[from[k]], instance[i]], Tone::Goal));
             marks.push(Mark::Dot(instance[i], Tone::Goal));
             let caption = format!("{k} inserted, visited from the hint: {}", sights.len());
-            sketches.push(Sketch { marks, caption });
+            sketches.push(Sketch { marks, caption, ..Sketch::default() });
         }
         d.insert_observed(instance[i], &mut ())?;
     }

@@ -86,7 +86,7 @@ fn search(base: &[Mark], seen: &Seen, q: [f64; 2], show: Show) -> Vec<Sketch> {
             (Show::Levels, _) => format!("level {level}, triangles visited: {visited}"),
             _ => format!("triangles visited: {visited}"),
         };
-        sketches.push(Sketch { marks, caption });
+        sketches.push(Sketch { marks, caption, ..Sketch::default() });
     }
     sketches
 }

@@ -37,7 +37,11 @@ pub(super) fn of(points: &[[f64; 2]], args: &AnimateArgs) -> Result<Scene, Error
     if sketches.is_empty() {
         // Of too few points for anything to happen there is one picture.
         let d = Delaunay2::from_points(points)?;
-        sketches.push(Sketch { marks: mesh(&d, Tone::Plain), caption: "nothing to show".to_owned() });
+        sketches.push(Sketch {
+            marks: mesh(&d, Tone::Plain),
+            caption: "nothing to show".to_owned(),
+            ..Sketch::default()
+        });
     }
     Ok(Scene { sketches, window })
 }
