@@ -63,7 +63,7 @@ impl Density {
     pub(super) fn between(low: f64, high: f64) -> Self {
         let low = low.max(f64::MIN_POSITIVE);
         let span = ratio(high, low);
-        let widen = (4f64.ln() - span).max(0.0) / 2.0;
+        let widen = (libm::log(4.0) - span).max(0.0) / 2.0;
         Self { low, range: [-widen, span + widen] }
     }
 
@@ -76,7 +76,7 @@ impl Density {
 
 /// The logarithm of a ratio, whatever numbers there are.
 fn ratio(area: f64, low: f64) -> f64 {
-    (area / low).clamp(f64::MIN_POSITIVE, f64::MAX).ln()
+    libm::log((area / low).clamp(f64::MIN_POSITIVE, f64::MAX))
 }
 
 /// From `a` to `b`.

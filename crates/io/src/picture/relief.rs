@@ -139,7 +139,7 @@ fn smallest_angle([a, b, c]: [[f64; 2]; 3]) -> f64 {
             u.map(|x| x / longer)
         };
         let (u, v) = (unit(toward(q)), unit(toward(r)));
-        (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
+        libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
     };
     let smallest = [[a, b, c], [b, c, a], [c, a, b]].map(at).into_iter().fold(f64::INFINITY, f64::min);
     if smallest.is_finite() { smallest.to_degrees().max(0.0) } else { 0.0 }

@@ -37,7 +37,7 @@ impl Ruler {
     /// The width of a unit of x, as a part of the height of a unit of y: of degrees that at the middle latitude.
     pub(super) fn squeeze(self, low: [f64; 2], high: [f64; 2]) -> f64 {
         match self {
-            Self::Degrees => f64::midpoint(low[1], high[1]).to_radians().cos().max(LEAST_COSINE),
+            Self::Degrees => libm::cos(f64::midpoint(low[1], high[1]).to_radians()).max(LEAST_COSINE),
             _ => 1.0,
         }
     }

@@ -197,7 +197,7 @@ impl Sketch {
 /// The corners of a circle that looks round.
 fn polygon(center: [f64; 2], radius: f64) -> [[f64; 2]; 64] {
     std::array::from_fn(|k| {
-        let (sin, cos) = (std::f64::consts::TAU * k as f64 / 64.0).sin_cos();
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / 64.0);
         [center[0] + radius * cos, center[1] + radius * sin]
     })
 }

@@ -40,8 +40,8 @@ struct Axes([[f64; 3]; 3]);
 
 impl Axes {
     fn of(camera: &Camera) -> Self {
-        let (sin_a, cos_a) = camera.azimuth.to_radians().sin_cos();
-        let (sin_e, cos_e) = camera.elevation.to_radians().sin_cos();
+        let (sin_a, cos_a) = libm::sincos(camera.azimuth.to_radians());
+        let (sin_e, cos_e) = libm::sincos(camera.elevation.to_radians());
         Self([
             [-sin_a, cos_a, 0.0],
             [-sin_e * cos_a, -sin_e * sin_a, cos_e],

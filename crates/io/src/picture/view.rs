@@ -127,7 +127,7 @@ impl View {
         let metres = self.ruler.metres();
         let pixels_per_unit = self.scale[1] * self.half / metres.unwrap_or(1.0);
         let most = f64::from(self.width) / 5.0 / pixels_per_unit;
-        let power = 10f64.powf(most.log10().floor());
+        let power = libm::pow(10.0, libm::log10(most).floor());
         let round = [5.0, 2.0, 1.0].map(|digit| digit * power).into_iter().find(|&length| length <= most)?;
         let pixels = round * pixels_per_unit;
         let is_number = round.is_finite() && pixels.is_finite() && pixels > 0.0;
