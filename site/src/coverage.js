@@ -10,14 +10,18 @@ export class Coverage {
   constructor(width, height) {
     [this.width, this.height] = [width, height];
     this.covered = new Uint8Array(width * height);
+    /** Shorter lines, in pixels along both axes, are no lines but a part of a tone. */
+    this.shortest = 1;
   }
 
-  /** A line of one pixel's width between places in pixels, whose centers are at halves. Shorter ones than a pixel add up to a tone. */
+  /** A line of one pixel's width between places in pixels, whose centers are at halves. The shortest add up to a tone. */
   line(ax, ay, bx, by) {
     const {width, height} = this;
-    const [dx, dy] = [Math.abs(bx - ax), Math.abs(by - ay)];
-    if (dx + dy < 1) {
-      const [x, y] = [(ax + bx) / 2, (ay + by) / 2];
+    const dx = Math.abs(bx - ax);
+    const dy = Math.abs(by - ay);
+    if (dx + dy < this.shortest) {
+      const x = (ax + bx) / 2;
+      const y = (ay + by) / 2;
       if (!(x >= 0 && y >= 0 && x < width && y < height)) return;
       const at = Math.floor(y) * width + Math.floor(x);
       this.covered[at] = Math.min(this.covered[at] + 255 * (dx + dy), 255);

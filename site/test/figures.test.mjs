@@ -338,7 +338,13 @@ test("all figures can be used by touch, and by keys", async (t) => {
   await changes("circle", () => tap("circle", 120, 90));
   await changes("location", () => tap("location", 60, 50).then(() => page.locator("#location canvas").first().press("Enter")).then(() => tap("location", 1, 1)));
   await tap("surface", 100, 80);
-  for (const button of ["raise", "lower"]) await changes("surface", () => page.tap(`#surface-${button}`));
+  const surface = () => page.locator("#surface canvas").evaluate((canvas) => canvas.toDataURL());
+  for (const button of ["raise", "lower"]) {
+    const before = await surface();
+    await page.tap(`#surface-${button}`);
+    await page.waitForTimeout(300);
+    assert.notEqual(await surface(), before);
+  }
   // On a telephone most places between sixty points take a new one.
   await page.selectOption("#play-kind", "grid");
   await page.locator("#play canvas").scrollIntoViewIfNeeded();

@@ -11,6 +11,8 @@ const METERS_OF_DEGREE = 111_195;
 const DEEP = 1e5;
 /** Between so many pixels and a single one, lines fade into a tone. */
 const TONE = 6;
+/** Where points are closer than so many pixels, edges up to that length are a tone. */
+const CARPET = 2;
 /** Meshes of so many points are sorted for pictures. */
 const CROWD = 20_000;
 
@@ -91,9 +93,13 @@ export class Scene {
   }
 
   #shares(x, y) {
-    const flat = new Float64Array(2 * x.length);
-    for (let i = 0; i < x.length; i++) [flat[2 * i], flat[2 * i + 1]] = [x[i], y[i]];
-    return shared(flat, this.frame);
+    const {x0, y0, part, aspect, extent} = this.frame;
+    const shares = new Float64Array(2 * x.length);
+    for (let i = 0; i < x.length; i++) {
+      shares[2 * i] = ((x[i] * part - x0 * part) * aspect) / extent;
+      shares[2 * i + 1] = (y[i] * part - y0 * part) / extent;
+    }
+    return shares;
   }
 
   add(name, layer) {
@@ -232,9 +238,18 @@ export class Scene {
 
   drawMesh({bytes, coverage, place, isBeside, width, height, look, zoom}, {points, triangles, border = []}, {color, alpha}) {
     const pixels = place(points);
+    const spacing = zoom / Math.sqrt(points.length / 2 + 1);
+    coverage.shortest = spacing < CARPET ? CARPET : 1;
     for (let t = 0; t < triangles.length; t += 3) {
-      const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
-      const [ax, ay, bx, by, cx, cy] = [pixels[2 * a], pixels[2 * a + 1], pixels[2 * b], pixels[2 * b + 1], pixels[2 * c], pixels[2 * c + 1]];
+      const a = triangles[t];
+      const b = triangles[t + 1];
+      const c = triangles[t + 2];
+      const ax = pixels[2 * a];
+      const ay = pixels[2 * a + 1];
+      const bx = pixels[2 * b];
+      const by = pixels[2 * b + 1];
+      const cx = pixels[2 * c];
+      const cy = pixels[2 * c + 1];
       if ((ax < 0 && bx < 0 && cx < 0) || (ay < 0 && by < 0 && cy < 0)) continue;
       if ((ax > width && bx > width && cx > width) || (ay > height && by > height && cy > height)) continue;
       if (a < b) coverage.line(ax, ay, bx, by);
@@ -245,8 +260,8 @@ export class Scene {
       const [a, b] = [2 * border[k], 2 * border[k + 1]];
       if (!isBeside(pixels[a], pixels[a + 1], pixels[b], pixels[b + 1])) coverage.line(pixels[a], pixels[a + 1], pixels[b], pixels[b + 1]);
     }
+    coverage.shortest = 1;
     // Lines closer than pixels become a tone; over a fill they leave it to be seen.
-    const spacing = zoom / Math.sqrt(points.length / 2 + 1);
     const dense = look.fill === "none" ? Math.max(spacing / TONE, 0.4) : spacing / (3 * TONE);
     coverage.mix(bytes, parts(look.colors[color]), Math.min(dense, alpha));
   }
