@@ -68,7 +68,7 @@ export class Panels {
       list.addEventListener("change", () => set(list.value));
       return make("label", {}, label ? `${label} ` : "", list);
     }
-    const field = make("input", {id, type: "number", step: "any", placeholder: "auto", ...limits});
+    const field = make("input", {id, type: "number", step: "any", placeholder: "fitting", ...limits});
     field.addEventListener("change", () => set(field.value));
     if (!slider) return make("label", {}, `${label} `, field);
     const range = make("input", {type: "range", id: `${id}-slider`, ariaLabel: label, ...SLIDER});

@@ -302,7 +302,7 @@ export class Scene {
   #dots({bytes, coverage, width, height, place, look, zoom}) {
     const pixels = place(this.points);
     const spacing = zoom / Math.sqrt(pixels.length / 2 + 1);
-    const radius = spacing < TONE ? 0 : (spacing < 3 * TONE ? 1.2 : 2.5) * look.ratio;
+    const radius = spacing < TONE ? 0 : (spacing < 6 * TONE ? 1.2 : 2.5) * look.ratio;
     for (let i = 0; i < pixels.length; i += 2) {
       const x = pixels[i];
       const y = pixels[i + 1];

@@ -57,7 +57,7 @@ export const views = {
     command: "mesh",
     format: "ply",
     style: {color: "hull", wide: 1, alpha: 0.9},
-    options: [number("angle", "least angle", "--min-angle", {min: 0, max: 34, step: 1}), number("area", "largest area", "--max-area", {min: 0})],
+    options: [number("angle", "least angle", "--min-angle", {min: 0, max: 34, step: 1, placeholder: "20"}), number("area", "largest area", "--max-area", {min: 0, placeholder: "any"})],
     crossings: true,
   },
   graph: {
