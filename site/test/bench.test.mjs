@@ -6,54 +6,9 @@ import {spawnSync} from "node:child_process";
 import {mkdtempSync, readFileSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {test} from "node:test";
-import {fileURLToPath} from "node:url";
-import {open, useBrowser} from "./browser.mjs";
+import {data, drawn, give, open, save, says, settled, state, useBrowser} from "./browser.mjs";
 
 useBrowser();
-const data = (name) => fileURLToPath(new URL(`../../data/${name}`, import.meta.url));
-
-const says = (page) => page.textContent("#bench-status");
-const state = (page) => page.getAttribute("#bench", "data-state");
-
-/** Waits until nothing is being made, and gives what is said. */
-async function settled(page) {
-  await page.waitForFunction(
-    () => {
-      const {state} = document.querySelector("#bench").dataset;
-      const still = state === "ready" || state === "empty";
-      globalThis.calm = still ? (globalThis.calm ?? 0) + 1 : 0;
-      return globalThis.calm > 3;
-    },
-    undefined,
-    {timeout: 90_000, polling: 60},
-  );
-  await page.evaluate(() => (globalThis.calm = 0));
-  return says(page);
-}
-
-/** Gives files to the page, by name, and waits for what is said of them. */
-async function give(page, files) {
-  await page.setInputFiles("#bench-file", Object.entries(files).map(([name, text]) => ({name, mimeType: "", buffer: Buffer.from(text)})));
-  return settled(page);
-}
-
-/** How many pixels of the stage are not paper. */
-const drawn = (page) =>
-  page.locator("#bench-picture").evaluate((canvas) => {
-    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) count += data[i + 3] > 0 && data[i] + data[i + 1] + data[i + 2] < 740;
-    return count;
-  });
-
-async function save(page, view, format) {
-  await page.selectOption("#bench-save-view", view);
-  await page.selectOption("#bench-save-format", format);
-  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#bench-save")]);
-  await settled(page);
-  return {name: download.suggestedFilename(), bytes: readFileSync(await download.path())};
-}
-
 test("a table with names, latitude before longitude, becomes districts with its columns", async (t) => {
   const page = await open(t);
   const text = "id,name,lat,lon\n1,A,48.1,11.5\n2,B,48.3,11.7\n3,C,48.2,11.9\n4,D,48.0,11.6\n5,E,48.15,11.7\n";
@@ -170,11 +125,11 @@ test("files that are wrong are said to be so, and nothing of the last one stays"
   }
   assert.match(await give(page, {"a.csv": good, "b.csv": "5,5\n"}), /a\.csv, b\.csv: 5 points/);
   assert.match(await give(page, {"a b's.csv": "0,0\n1,1\n2,2\n"}), /3 points, no triangle: they are on a line/);
-  assert.equal(await page.textContent("#bench-code"), "delone triangulate 'a b'\\''s.csv' -o triangles.ply");
+  assert.equal(await page.textContent("#bench-code"), "delone triangulate 'a b'\\''s.csv' -o triangles.geojson");
   // A file that is called as what is saved.
-  assert.match(await give(page, {"triangles.geojson": '{"type":"MultiPoint","coordinates":[[0,0],[2,0],[1,1]]}'}), /3 points, 1 triangles/);
+  assert.match(await give(page, {"triangles.geojson": '{"type":"MultiPoint","coordinates":[[0,0],[2,0],[1,1]]}'}), /3 points, 1 triangle,/);
   assert.equal((await save(page, "triangles", "geojson")).name, "triangles-new.geojson");
-  assert.match(await give(page, {"one.csv": "3,4\n"}), /1 point, which are too few/);
+  assert.match(await give(page, {"one.csv": "3,4\n"}), /1 point, too few for a triangle/);
 });
 
 test("the least and the largest coordinates are drawn", async (t) => {
@@ -210,11 +165,11 @@ test("a file is dropped anywhere, and text is pasted", async (t) => {
     return data;
   });
   for (const kind of ["dragover", "drop"]) await page.dispatchEvent("#start", kind, {dataTransfer: transfer});
-  assert.match(await settled(page), /^dropped\.xyz: 3 points, 1 triangles/);
+  assert.match(await settled(page), /^dropped\.xyz: 3 points, 1 triangle,/);
   for (const [text, pattern] of [
     ["0,0\n5,0\n0,5\n9,9\n", /^pasted\.csv: 4 points/],
     ["POLYGON((0 0,4 0,4 4,0 4,0 0))", /^pasted\.wkt: [45] points, 2 triangles/],
-    ['{"type":"MultiPoint","coordinates":[[0,0],[2,0],[1,1],[0,0]]}', /^pasted\.geojson: 4 points, 1 triangles/],
+    ['{"type":"MultiPoint","coordinates":[[0,0],[2,0],[1,1],[0,0]]}', /^pasted\.geojson: 4 points, 1 triangle,/],
   ]) {
     await page.click("#bench-paste-open");
     await page.fill("#bench-paste-text", text);
@@ -240,7 +195,7 @@ test("links, undo, redo and reload keep what is shown", async (t) => {
   // Files are kept by the browser.
   await give(page, {"mine.csv": "0,0\n7,0\n0,7\n"});
   await page.reload();
-  assert.match(await settled(page), /^mine\.csv: 3 points, 1 triangles/);
+  assert.match(await settled(page), /^mine\.csv: 3 points, 1 triangle,/);
   await page.goBack();
   assert.match(await settled(page), /^uniform\.csv: 300 points/);
   const elsewhere = await open(t, {hash: "#file=gone.csv&views=triangles"});
@@ -346,7 +301,7 @@ test("pictures are saved, and code is copied", async (t) => {
   const svg = await save(page, "cells", "svg");
   assert.match(String(svg.bytes.subarray(0, 200)), /<svg/);
   await page.click("[data-tab=Python]");
-  assert.match(await page.textContent("#bench-code"), /points = table\[\["lon", "lat"\]\]\.to_numpy\(\)/);
+  assert.match(await page.textContent("#bench-code"), /points = np\.array\(\[\[row\["lon"\], row\["lat"\]\] for row in rows\], dtype=float\)/);
   await page.click("#bench-copy");
   await page.waitForFunction(() => document.querySelector("#bench-copied").textContent === "Copied.");
 });

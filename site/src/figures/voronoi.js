@@ -35,7 +35,10 @@ export function voronoi(section, tell) {
       strokePath(context, new Path2D(cells.render() ?? ""), color.voronoi, {dash: [6, 4], width: 1.5, scale});
     }
     context.globalAlpha = 1;
-    if (polygon) ring(context, polygon, color.chosen, 2.5, scale);
+    if (polygon) {
+      ring(context, polygon, color.chosen, 2.5, scale);
+      dots(context, Float64Array.from(polygon.flat()), color.chosen, 4 / scale);
+    }
     if (isDrawing) dots(context, cursor, color.chosen, 6 / scale);
     dots(context, coords, color.ink, 3 / scale);
   });

@@ -44,8 +44,8 @@ export class Engine {
   }
 
   /** The columns of a point of a file, as pairs of names and words. */
-  async row(name, i) {
-    return (await this.#worker.run({task: "row", name, i})).cells;
+  async row(name, i, count) {
+    return (await this.#worker.run({task: "row", name, i, count})).cells;
   }
 
   /** Runs a command. Gives what it wrote and told, or throws a `Failure`. */

@@ -26,11 +26,27 @@ async function within(mode, act) {
   }
 }
 
-/** Keeps blobs by name in place of those before. Without a store, or without room in it, nothing is kept. */
-export const keep = (blobs) => within("readwrite", (store) => store.put(blobs, "last")).catch(() => undefined);
+/** Files of other tabs are kept for a day. In milliseconds. */
+const DAY = 86_400_000;
 
-/** The blobs that were kept, if they are these. */
+/** A tab has a name of its own, which a reload keeps. */
+function tab() {
+  sessionStorage.delone ??= `${Date.now()}-${Math.random()}`;
+  return sessionStorage.delone;
+}
+
+/** Keeps blobs by name in place of those of this tab before. Without a store, or without room in it, nothing is kept. */
+export async function keep(blobs) {
+  try {
+    const old = (await within("readonly", (store) => store.getAllKeys())).filter((key) => !(Date.now() - Number.parseInt(key, 10) < DAY));
+    await within("readwrite", (store) => old.map((key) => store.delete(key)) && store.put(blobs, tab()));
+  } catch {
+    // What is shown is shown all the same.
+  }
+}
+
+/** The blobs that were kept for this tab, if they are these. */
 export async function kept(names) {
-  const blobs = await within("readonly", (store) => store.get("last")).catch(() => undefined);
+  const blobs = await within("readonly", (store) => store.get(tab())).catch(() => undefined);
   return blobs && names.every((name) => Object.hasOwn(blobs, name)) ? blobs : undefined;
 }

@@ -14,7 +14,7 @@ const TAP = 6;
  */
 export class View {
   constructor(canvas, {change, hover, choose}) {
-    Object.assign(this, {canvas, change, x: 0.5, y: 0.5, zoom: 1, size: [1, 1]});
+    Object.assign(this, {canvas, change, isEmpty: true, x: 0.5, y: 0.5, zoom: 1, size: [1, 1]});
     const fingers = new Map();
     let moved = 0;
     const middle = () => {
@@ -34,6 +34,8 @@ export class View {
       const after = middle();
       moved += Math.hypot(after.x - before.x, after.y - before.y);
       if (moved <= TAP && fingers.size === 1) return undefined;
+      // One finger scrolls the page while all is seen; the style sheet of the canvas says so to the browser.
+      if (event.pointerType === "touch" && fingers.size === 1 && this.isWhole) return undefined;
       const [x, y] = this.at([before.x, before.y]);
       this.#scale(before.spread ? after.spread / before.spread : 1);
       return this.#hold(x, y, [after.x, after.y]);
@@ -44,10 +46,13 @@ export class View {
         if (fingers.delete(event.pointerId) && isTap) choose(this.at(this.#pixel(event)));
       });
     }
-    canvas.addEventListener("pointerleave", () => hover(undefined));
+    // A finger leaves whenever it is lifted.
+    canvas.addEventListener("pointerleave", ({pointerType}) => pointerType === "mouse" && hover(undefined));
     canvas.addEventListener(
       "wheel",
       (event) => {
+        // The page scrolls on an empty stage, and where no more can be seen.
+        if (this.isEmpty || (event.deltaY > 0 && !event.ctrlKey && this.isWhole)) return;
         event.preventDefault();
         const lines = event.deltaMode === 1 ? 30 : 1;
         this.#about(this.#pixel(event), Math.exp(-event.deltaY * lines * WHEEL));
@@ -121,6 +126,11 @@ export class View {
   get least() {
     const margin = 0.94;
     return margin * Math.min(this.canvas.clientWidth / (this.size[0] || 1e-9), this.canvas.clientHeight / (this.size[1] || 1e-9), 1e6);
+  }
+
+  /** Whether everything is shown. */
+  get isWhole() {
+    return this.zoom <= this.least * 1.01;
   }
 
   /** Shows all of what is so large, in shares. */

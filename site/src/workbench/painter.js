@@ -60,15 +60,16 @@ const tasks = {
     const i = finder.find(x, y);
     const {points} = scene;
     const isNear = i >= 0 && Math.hypot(points[2 * i] - x, points[2 * i + 1] - y) <= reach;
-    const found = {};
-    if (isNear) {
+    const found = {isNear};
+    if (i >= 0) {
       const name = scene.nameOf(scene, i);
       found.point = {i: name, at: [points[2 * i], points[2 * i + 1]], place: [scene.x[name], scene.y[name]], height: scene.z?.[name]};
     }
     const mesh = ["mesh", "triangles"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
     if (mesh) found.triangle = triangleAt(mesh, x, y);
-    const areas = ["cells", "alpha"].map((name) => shown.includes(name) && scene.get(name)).find(Boolean);
-    if (areas) found.area = areaAt(areas, x, y);
+    const name = ["cells", "alpha"].find((name) => shown.includes(name) && scene.get(name));
+    const area = name && areaAt(scene.get(name), x, y);
+    if (area) found.area = {name, ...area};
     return found;
   },
 };

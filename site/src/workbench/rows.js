@@ -5,46 +5,89 @@ const LARGEST = 64 << 20;
 /** Rows of a preview. */
 const PREVIEW = 5;
 
-const split = (line) => {
-  const sign = [";", "\t", ","].find((sign) => line.includes(sign)) ?? /\s+/;
-  const cells = [];
-  // Quotes hold separators together.
-  for (const part of line.trim().split(sign)) {
-    if (cells.length && (cells.at(-1).match(/"/g) ?? []).length % 2) cells[cells.length - 1] += `${sign}${part}`;
-    else cells.push(part);
-  }
-  return cells.map((cell) => cell.trim().replace(/^"(.*)"$/, "$1").replaceAll('""', '"'));
-};
-
 export const isText = (name) => /\.(csv|tsv|txt|xyz|dat|pts)$/i.test(name);
 
-/** Lines that are no comments. */
-const lines = (text) => text.split(/\r\n|\r|\n/).filter((line) => line.trim() && !/^\s*(#|\/\/)/.test(line));
+/** Text in UTF-8, or else in Windows' Western letters, and which of both. */
+export function decoded(bytes) {
+  try {
+    return {text: new TextDecoder("utf-8", {fatal: true}).decode(bytes), encoding: "utf-8-sig"};
+  } catch {
+    return {text: new TextDecoder("windows-1252").decode(bytes), encoding: "cp1252"};
+  }
+}
 
 const isNumber = (cell) => cell !== "" && Number.isFinite(Number(cell.replace(",", ".")));
 
-/** Names of columns, or numbers from 1 where there are none, and the first rows. */
-export function preview(text) {
-  const rows = lines(text).slice(0, PREVIEW + 1).map(split);
-  const [first = []] = rows;
-  const hasHeading = first.length > 0 && !first.some(isNumber);
-  return {names: hasHeading ? first : first.map((_, k) => String(k + 1)), rows: hasHeading ? rows.slice(1) : rows.slice(0, PREVIEW)};
+/** What separates cells, by the first line that is no comment: the surest of those that are in it. */
+export function signOf(text) {
+  const line = text.split(/\r\n|\r|\n/).find((line) => line.trim() && !/^\s*(#|\/\/)/.test(line)) ?? "";
+  return [";", "\t", ","].find((sign) => line.replace(/"[^"]*"/g, "").includes(sign)) ?? " ";
 }
 
-/** Something that tells the columns of a point by its number: pairs of names and words. Nothing where that is not known. */
-export function teller(name, bytes) {
+/** Rows of cells. Quotes hold separators and ends of lines together; comments are passed over. At most so many rows. */
+export function table(text, most = Infinity) {
+  const sign = signOf(text);
+  const rows = [];
+  let row = [];
+  let cell = "";
+  let isQuoted = false;
+  const endCell = () => {
+    row.push(cell.trim());
+    cell = "";
+  };
+  function endRow() {
+    endCell();
+    if (sign === " ") row = row.filter(Boolean);
+    if (row.some(Boolean) && !/^(#|\/\/)/.test(row[0])) rows.push(row);
+    row = [];
+  }
+  for (let at = 0; at < text.length && rows.length < most; at++) {
+    const letter = text[at];
+    if (isQuoted) {
+      if (letter !== '"') cell += letter;
+      else if (text[at + 1] === '"') cell += text[++at];
+      else isQuoted = false;
+    } else if (letter === '"' && !cell.trim()) isQuoted = true;
+    else if (letter === "\n" || letter === "\r") {
+      if (letter === "\r" && text[at + 1] === "\n") at++;
+      endRow();
+    } else if (letter === sign || (sign === " " && letter === "\t")) endCell();
+    else cell += letter;
+  }
+  if (rows.length < most && (cell || row.length)) endRow();
+  return rows;
+}
+
+/** Names of columns, or numbers from 1 where there are none, the first rows, and how they are written. */
+export function preview(bytes) {
+  const {text, encoding} = decoded(bytes);
+  const rows = table(text, PREVIEW + 1);
+  const [first = []] = rows;
+  const hasHeading = first.length > 0 && !first.some(isNumber);
+  return {
+    names: hasHeading ? first : first.map((_, k) => String(k + 1)),
+    rows: hasHeading ? rows.slice(1) : rows.slice(0, PREVIEW),
+    hasHeading,
+    encoding,
+    sign: signOf(text),
+  };
+}
+
+/** Something that tells the columns of a point of so many by its number: pairs of names and words. Nothing where that is not known. */
+export function teller(name, bytes, count) {
   const nothing = () => [];
   if (!bytes || bytes.length > LARGEST) return nothing;
-  const text = () => new TextDecoder().decode(bytes);
+  const {text} = decoded(bytes);
   if (isText(name)) {
-    const all = lines(text());
-    const {names, rows} = preview(all.slice(0, 2).join("\n"));
-    const skipped = all.length > 1 && rows.length < 2 ? 1 : 0;
-    return (i) => (all[i + skipped] ? split(all[i + skipped]).map((cell, k) => [names[k] ?? String(k + 1), cell]) : []);
+    const rows = table(text);
+    // The heading is one row more, also where it consists of numbers.
+    const skipped = rows.length - count;
+    if (skipped !== 0 && skipped !== 1) return nothing;
+    return (i) => (rows[i + skipped] ?? []).map((cell, k) => [skipped ? (rows[0][k] ?? String(k + 1)) : String(k + 1), cell]);
   }
   if (!/\.(geo)?json$/i.test(name)) return nothing;
   try {
-    const {features = []} = JSON.parse(text());
+    const {features = []} = JSON.parse(text);
     if (!features.every(({geometry}) => geometry?.type === "Point")) return nothing;
     return (i) => Object.entries(features[i]?.properties ?? {}).map(([key, value]) => [key, String(value)]);
   } catch {

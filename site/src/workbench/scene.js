@@ -210,7 +210,7 @@ export class Scene {
       const layer = this.#layers.get(name);
       if (layer) this[drawers[layer.kind]](draw, layer, look.styles[name]);
     }
-    if (look.dots && (look.fill === "none" || zoom / Math.sqrt(this.x.length + 1) > TONE)) this.#dots(draw);
+    if (look.dots && (look.isPlain || zoom / Math.sqrt(this.x.length + 1) > TONE)) this.#dots(draw);
     return bytes;
   }
 

@@ -49,7 +49,7 @@ export const samples = {
 };
 
 async function sampled(name) {
-  const sample = samples[name];
+  const sample = Object.hasOwn(samples, name) ? samples[name] : undefined;
   if (!sample) throw new Error(`there is no sample ${name}`);
   if (sample.text) return new Blob([sample.text]);
   await load("samples.js");
@@ -62,9 +62,6 @@ export function nameOfText(text) {
   if (/^\s*(SRID=\d+;)?\s*(MULTI)?(POINT|LINESTRING|POLYGON|GEOMETRYCOLLECTION)/i.test(text)) return "pasted.wkt";
   return "pasted.csv";
 }
-
-/** The name of a file as one in the only folder, and none that reads as an option. */
-export const fileName = (name) => name.replace(/[/\\]/g, "_").replace(/^-/, "_");
 
 /**
  * The blobs of a source by name; `files` has those of the visitor. `generate` makes a set by the program. Without `files` of that name it is an

@@ -51,6 +51,8 @@ export class WorkStage {
     this.#worker.giveUp();
     [this.#painting, this.#shownView, this.#marks, this.#look] = [];
     this.#picture.width = 0;
+    this.view.isEmpty = true;
+    this.tell(undefined, undefined, true);
     this.invalidate();
     // The next painter begins while the program works.
     this.drop("").catch(() => undefined);
@@ -59,6 +61,7 @@ export class WorkStage {
   /** Takes the mesh of all points. Gives what the painter tells of it. */
   async begin(bytes, isGeographic) {
     const about = await this.#worker.run({task: "begin", bytes, isGeographic}, [bytes.buffer]);
+    this.view.isEmpty = false;
     this.view.all(about.frame.size);
     this.frame = about.frame;
     return about;
@@ -125,6 +128,7 @@ export class WorkStage {
   invalidate() {
     this.#frame ||= requestAnimationFrame(() => {
       this.#frame = 0;
+      this.canvas.style.touchAction = this.view.isWhole ? "pan-y" : "none";
       this.#draw();
       this.#paint().catch(() => undefined);
     });
@@ -157,7 +161,7 @@ export class WorkStage {
       context.closePath();
       context.stroke();
     }
-    if (point) {
+    if (point && this.#marks.isNear) {
       context.beginPath();
       context.arc(...view.pixel(point.at), 7, 0, 2 * Math.PI);
       context.lineWidth = 3;

@@ -20,7 +20,9 @@ export async function tellOf(section, loaded, found, pixel, isChosen) {
   const of = (name) => section.querySelector(`#bench-${name}`);
   const tip = of("tip");
   const lines = [];
-  if (found?.point) {
+  // In a cell its point is meant, however far away.
+  const isCell = found?.area?.name === "cells";
+  if (found?.point && (found.isNear || isCell)) {
     const {i, place, height} = found.point;
     lines.push(`point ${i}: ${place.map(short).join(", ")}${height === undefined ? "" : `, height ${short(height)}`}`);
     if (loaded?.names.length === 1) for (const [name, cell] of await loaded.row(i)) lines.push(`${name}: ${cell}`);
@@ -28,7 +30,7 @@ export async function tellOf(section, loaded, found, pixel, isChosen) {
     const {number, indices, corners} = found.triangle;
     lines.push(`triangle ${number}: ${indices.join(", ")}`, `least angle ${angles(corners).toFixed(1)}°, area ${short(areaOf(corners, loaded.about.frame))}`);
   }
-  if (found?.area && !found.point) lines.push(`area ${found.area.number}`);
+  if (found?.area?.name === "alpha" && !found.isNear) lines.push("inside of the alpha shape");
   tip.hidden = !lines.length;
   tip.textContent = lines.join("\n");
   if (pixel) {

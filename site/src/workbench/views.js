@@ -57,7 +57,7 @@ export const views = {
     command: "mesh",
     format: "ply",
     style: {color: "hull", wide: 1, alpha: 0.9},
-    options: [number("angle", "least angle", "--min-angle", {min: 0, max: 34, step: 1, placeholder: "20"}), number("area", "largest area", "--max-area", {min: 0, placeholder: "any"})],
+    options: [number("angle", "least angle", "--min-angle", {min: 0, max: 34, step: 1, placeholder: "20", unit: "degrees"}), number("area", "largest area", "--max-area", {min: 0, placeholder: "any"})],
     crossings: true,
   },
   graph: {
@@ -68,6 +68,20 @@ export const views = {
     options: [choice("kind", "", "--kind", ["gabriel", "relative-neighbors", "spanning-tree"])],
   },
 };
+
+/** A step of contours that gives some twelve of them: 1, 2 or 5 of a power of ten. */
+export function stepOf([low, high]) {
+  const step = (high - low) / 12 || 1;
+  const power = 10 ** Math.floor(Math.log10(step));
+  return String(Number(([1, 2, 5, 10].find((part) => part * power >= step) * power).toPrecision(3)));
+}
+
+/** Views that go on with other points: with choices and angles, but without lengths and areas. */
+export function carried(shown) {
+  const isFree = ({kind, unit}) => kind === "choice" || unit === "degrees";
+  const kept = ([name, given]) => [name, Object.fromEntries(views[name].options.filter(isFree).flatMap(({key}) => (given[key] ? [[key, given[key]]] : [])))];
+  return Object.fromEntries(Object.entries(shown).filter(([name]) => !views[name].heights).map(kept));
+}
 
 /** Words of options that say how files are read. */
 export function reading({columns, classes, epsg}) {

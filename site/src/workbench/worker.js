@@ -31,8 +31,8 @@ answer({
   },
 
   /** The columns of a point, as pairs. */
-  row({name, i}) {
-    telling[name] ??= teller(name, files[name]);
+  row({name, i, count}) {
+    telling[name] ??= teller(name, files[name], count);
     return {cells: telling[name](i)};
   },
 
