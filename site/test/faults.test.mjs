@@ -135,7 +135,7 @@ test("rows are told as the program reads them", async (t) => {
   const page = await open(t);
   await give(page, {"q.csv": 'id,name,x,y\n1,"line\nbreak",0,0\n2,"B; semi, colon",1,0\n3,C,0,1\n4,D,1,1\n'});
   assert.match(await tipAt(page, 1, 0), /id: 2\nname: B; semi, colon/);
-  assert.match(await tipAt(page, 1, 1), /id: 4\nname: D/);
+  assert.match(await tipAt(page, 0, 1), /id: 3\nname: C/);
   await give(page, {"n.csv": "id,2019,x,y\n1,5,0,0\n2,6,1,0\n3,7,0,1\n4,8,1,1\n"});
   assert.match(await tipAt(page, 0, 1), /id: 3\n2019: 7/);
   await give(page, {"latin.csv": Buffer.from("id;Straße;x;y\n1;Öl;0;0\n2;Ä;1;0\n3;Ü;0;1\n4;ß;1;1\n", "latin1")});

@@ -45,7 +45,7 @@ function pythonReading(name, {columns, isLines, head, about}, state) {
     const needsPoints = Object.keys(state.views).some((view) => !isLines || !["triangles", "mesh"].includes(view));
     return needsPoints ? [...frame, "points = frame.get_coordinates().to_numpy()"] : frame;
   }
-  if (isText(name.replace(/\.gz$/i, ""))) return pythonTable(name, columns, head);
+  if (isText(name.replace(/\.gz$/i, ""))) return pythonTable(name, about.heights && !columns[2] ? [columns[0], columns[1], "3"] : columns, head);
   return ["import meshio", `table = meshio.read(${text(name)}).points`, "points = table[:, :2]", ...heights];
 }
 

@@ -16,6 +16,7 @@ export const LONGEST_TEXT = 6000;
 
 /** The part of an address after the "#". */
 export function toHash({source, read, views, fill, dots}) {
+  if (source.kind === "none") return location.href.split("#")[0];
   const words = new URLSearchParams();
   const put = (key, value) => value !== "" && value !== undefined && words.set(key, value);
   if (source.kind === "set") [["set", source.name], ["n", source.count], ["seed", source.seed]].forEach((pair) => put(...pair));
@@ -80,8 +81,7 @@ export class Past {
     addEventListener("popstate", ({state}) => {
       // Links to the sections of the page are no states.
       this.#isMoving = false;
-      const found = state?.state ?? fromHash(location.hash);
-      if (!found) return;
+      const found = state?.state ?? fromHash(location.hash) ?? empty();
       this.#now = state?.turn ?? 0;
       this.#show(found);
     });
