@@ -21,6 +21,10 @@ test("a table with names, latitude before longitude, becomes districts with its 
   const {features} = JSON.parse(bytes);
   assert.deepEqual(features.map(({properties}) => properties.name), ["A", "B", "C", "D", "E"]);
   assert.ok(features.every(({geometry}) => geometry.coordinates[0].every(([x, y]) => x < 12 && y > 47)));
+  // Names in another language.
+  assert.match(await give(page, {"orte.csv": "Nr;Geogr. Breite;Geogr. Länge\n1;48,1;11,5\n2;48,3;11,7\n3;48,2;11,9\n"}), /^orte\.csv: 3 points, 1 triangle/);
+  assert.match(await page.textContent("#bench-help"), /Länge, Geogr\. Breite were taken as x, y/);
+  assert.match(await give(page, {"addresses.csv": text}), /^addresses\.csv: 5 points/);
   // Another choice of columns.
   await page.click("#bench-reading summary");
   assert.match(await page.textContent("#bench-rows"), /latlon1A48\.1/);

@@ -23,7 +23,7 @@ export async function split(read, act) {
 
 /** Coordinates that are degrees: of formats that say so, and of columns that are called so. */
 const isDegrees = (name, columns) =>
-  /\.(geojson|json|gpx)(\.gz)?$/i.test(name) || columns.some((column) => /^(lon|lng|lat|länge|laenge|breite)/i.test(column));
+  /\.(geojson|json|gpx)(\.gz)?$/i.test(name) || columns.some((column) => /^(lon|lng|lat|länge|laenge|breite|geogr|lengte|breedte|długość|szerokość|долгота|широта|[经経纬緯]度)/i.test(column));
 
 /** The head of a file, up to the end of a line. */
 async function headOf(blob) {

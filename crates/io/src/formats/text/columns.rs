@@ -14,13 +14,17 @@ pub(super) enum Columns {
 }
 
 /// Names of the columns x and y; names of one row belong together.
-const FAMILIES: [[&[&str]; 2]; 6] = [
+const FAMILIES: [[&[&str]; 2]; 10] = [
     [&["x"], &["y"]],
     [&["easting", "east", "e"], &["northing", "north", "n"]],
     [&["lon", "lng", "long", "longitude"], &["lat", "latitude"]],
     [&["ost", "ostwert", "rechtswert"], &["nord", "nordwert", "hochwert"]],
     [&["este", "longitud", "longitudine"], &["norte", "latitud", "latitudine"]],
-    [&["laenge", "länge"], &["breite"]],
+    [&["laenge", "länge", "laengengrad", "längengrad"], &["breite", "breitengrad"]],
+    [&["lengtegraad"], &["breedtegraad"]],
+    [&["długość"], &["szerokość"]],
+    [&["долгота"], &["широта"]],
+    [&["经度", "経度"], &["纬度", "緯度"]],
 ];
 
 /// Names of columns of heights.
@@ -48,7 +52,9 @@ const GEOMETRIES: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"
 const MISSING: [&str; 8] = ["na", "n/a", "nan", "null", "none", "nil", "inf", "missing"];
 
 /// Words that say nothing about the axis.
-const FILLERS: [&str; 22] = [
+const FILLERS: [&str; 24] = [
+    "geogr",
+    "geographische",
     "coordinates",
     "coordinate",
     "coords",
@@ -254,6 +260,12 @@ mod tests {
             ("name,lat,lng", vec![2, 1]),
             ("latitude,longitude,alt", vec![1, 0, 2]),
             ("OBJECTID,POINT_X,POINT_Y,POINT_Z", vec![1, 2, 3]),
+            ("Breitengrad,Längengrad", vec![1, 0]),
+            ("id,Geogr. Breite,Geogr. Länge", vec![2, 1]),
+            ("breedtegraad,lengtegraad", vec![1, 0]),
+            ("szerokość,długość,wysokość", vec![1, 0]),
+            ("Широта,Долгота", vec![1, 0]),
+            ("名称,经度,纬度", vec![1, 2]),
             ("xcoord,ycoord,id", vec![0, 1]),
             ("X (m),Y (m),Z (m)", vec![0, 1, 2]),
             ("lat,x,y,lon", vec![1, 2]),
