@@ -35,6 +35,21 @@ test("columns that no name tells are chosen one after the other", async (t) => {
   assert.match(await page.textContent("#bench-code"), /--columns foo,bar/);
 });
 
+test("rows without coordinates are left out, and told", async (t) => {
+  const page = await open(t);
+  const said = await give(page, {"geocoded.csv": "name,lat,lon\nA,48,11\nB,,\nC,49,12\nD,NA,n/a\nE,48,13\n"});
+  assert.match(said, /line 3: field 3 is "", not a number|line 3/);
+  assert.match(await page.textContent("#bench-help"), /Rows without coordinates can be left out/);
+  assert.ok(await page.isVisible("#bench-missing"));
+  await page.check("#bench-missing");
+  assert.match(await settled(page), /^geocoded\.csv: 3 points, 1 triangle/);
+  assert.match(await page.textContent("#bench-help"), /2 rows without coordinates left out: lines 3, 5/);
+  await page.check("#bench-view-cells");
+  await settled(page);
+  const {features} = JSON.parse((await save(page, "cells", "geojson")).bytes);
+  assert.deepEqual(features.map(({properties}) => properties.name), ["A", "C", "E"]);
+});
+
 test("warnings of a mesh are shown, and saved meshes have them too", async (t) => {
   const page = await open(t);
   const points = Array.from({length: 60}, (_, i) => `${(i * 37) % 61},${(i * 53) % 59}`).join("\n");

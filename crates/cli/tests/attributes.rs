@@ -381,3 +381,17 @@ fn values_are_what_they_were() {
         serde_json::from_slice(&fs::read(place.path("cells.json")).expect("cells")).expect("JSON");
     assert_eq!([0, 2].map(|i| &cells["features"][i]["properties"]["v"]), [&Value::Null, &Value::from(2)]);
 }
+
+#[test]
+fn rows_without_coordinates_go_with_theirs() {
+    let place = Place::new();
+    place.file("t.csv", "name,x,y\nA,0,0\nB,,\nC,4,0\nD,NA,nan\nE,0,4\n");
+    place.fail("voronoi t.csv -o c.geojson", 1, "line 3");
+    let output = place.run("voronoi t.csv --skip-missing -o c.geojson");
+    assert!(output.status.success());
+    assert!(text(&output.stderr).contains("2 rows without coordinates left out: lines 3, 5"), "{output:?}");
+    let names: Vec<_> = properties(&place, "c.geojson").iter().map(|row| row["name"].clone()).collect();
+    assert_eq!(names, ["A", "C", "E"]);
+    place.file("p.ply", "ply\n");
+    place.fail("info p.ply --skip-missing", 2, "--skip-missing is for text");
+}

@@ -28,6 +28,8 @@ pub struct ReadOptions {
     pub attributes: bool,
     /// Closed lines of drawings are polygons.
     pub closed: bool,
+    /// Rows of text without coordinates are left out, and a remark says which: a coordinate is empty, or a word such as NA, NaN or null.
+    pub skip_missing: bool,
 }
 
 impl ReadOptions {
@@ -63,6 +65,13 @@ impl ReadOptions {
     #[must_use]
     pub fn attributes(mut self, attributes: bool) -> Self {
         self.attributes = attributes;
+        self
+    }
+
+    /// Sets whether rows of text without coordinates are left out.
+    #[must_use]
+    pub fn skip_missing(mut self, skip_missing: bool) -> Self {
+        self.skip_missing = skip_missing;
         self
     }
 

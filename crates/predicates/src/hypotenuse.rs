@@ -26,7 +26,8 @@ const SCALE: f64 = f64::from_bits((1023 + 600) << 52);
 /// ```
 /// use delone_predicates::hypotenuse;
 /// assert_eq!(hypotenuse(3.0, -4.0), 5.0);
-/// assert_eq!(hypotenuse(3e200, 4e200), 5e200);
+/// let far = 2.0_f64.powi(1000);
+/// assert_eq!(hypotenuse(3.0 * far, 4.0 * far), 5.0 * far);
 /// assert_eq!(hypotenuse(5e-324, 0.0), 5e-324);
 /// ```
 #[inline]

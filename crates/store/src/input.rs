@@ -101,13 +101,17 @@ impl<'a> Input<'a> {
 
     /// The input at present: files, and how they are read.
     pub(crate) fn describe(&self) -> Result<Value, Error> {
-        Ok(json!({
+        let mut told = json!({
             "files": described(&self.files.paths)?,
             "from": self.files.from.map(|format| format.to_string()),
             "las": format!("{:?}", self.options.las),
             "columns": self.options.columns,
             "heights": self.has_heights,
-        }))
+        });
+        if self.options.skip_missing {
+            told["skip_missing"] = true.into();
+        }
+        Ok(told)
     }
 
     /// Reads all points in their order once more.

@@ -113,6 +113,7 @@ export class Panels {
     of("fill").disabled = !loaded?.about.heights;
     of("dots").checked = state.dots;
     for (const key of ["classes", "epsg", "crossings", "region"]) if (of(key) !== document.activeElement) of(key).value = state.read[key];
+    of("missing").checked = Boolean(state.read.missing);
     of("empty").hidden = state.source.kind !== "none";
     const shown = Object.keys(state.views);
     if ([...of("save-view").options].map(({value}) => value).join() !== shown.join()) {
@@ -204,12 +205,13 @@ export class Panels {
     const before = this.#state.read;
     const next = {...before, columns: isPart ? before.columns : chosen};
     for (const key of ["classes", "epsg", "crossings", "region"]) next[key] = of(key).value.trim();
+    next.missing = of("missing").checked ? "left-out" : "";
     if (JSON.stringify(next) !== JSON.stringify(before)) this.#actions.change((state) => (state.read = next));
   }
 
   /** Opens what mends a failure. */
   offer({message, help = ""}) {
-    if (!/column/.test(message + help) || this.#of("columns-all").hidden) return;
+    if (!/column|not a number/.test(message + help) || this.#of("columns-all").hidden) return;
     this.#of("reading").open = true;
     this.#of("reading").scrollIntoView({block: "nearest"});
   }

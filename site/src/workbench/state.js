@@ -5,7 +5,7 @@ import {views} from "./views.js";
 
 export const empty = () => ({
   source: {kind: "none"},
-  read: {columns: "", classes: "", epsg: "", crossings: "", region: ""},
+  read: {columns: "", classes: "", epsg: "", crossings: "", region: "", missing: ""},
   views: {triangles: {}},
   fill: "none",
   dots: true,

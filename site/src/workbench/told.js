@@ -40,6 +40,7 @@ export function notesOf({notes, made, isGeographic}) {
 /** Help of the program, where it names what a page has; other words of the command line say nothing here. */
 export function helpOf({message = "", help = ""}) {
   if (/built without/.test(message)) return "The page has no SQLite: save the layer as GeoJSON or FlatGeobuf, or use the program on your machine.";
+  if (/not a number|coordinate (NaN|inf)/i.test(message)) return "Rows without coordinates can be left out, and columns chosen, under “How the file is read”.";
   if (/--columns|column/.test(help)) return "Choose the columns under “How the file is read”.";
   if (/--from|points are read from/.test(help)) return "The extension of a file tells its format: rename it, or save it as CSV or GeoJSON first.";
   return /--|delone /.test(help) ? "" : help;

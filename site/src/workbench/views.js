@@ -84,11 +84,12 @@ export function carried(shown) {
 }
 
 /** Words of options that say how files are read. */
-export function reading({columns, classes, epsg}) {
+export function reading({columns, classes, epsg, missing}) {
   return [
     ...(columns ? ["--columns", columns] : []),
     ...(classes ? ["--class", classes] : []),
     ...(epsg ? ["--epsg", epsg] : []),
+    ...(missing ? ["--skip-missing"] : []),
   ];
 }
 

@@ -151,6 +151,9 @@ pub struct InputArgs {
     /// the height (intensity, gps_time, ..., or a name of extra bytes).
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
+    /// Leave out rows of text without coordinates, which are empty or words such as NA, NaN and null; a line on standard error says which.
+    #[arg(long)]
+    pub(crate) skip_missing: bool,
     /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
@@ -159,7 +162,8 @@ pub struct InputArgs {
 impl InputArgs {
     /// Files that nothing else is said of.
     pub(crate) fn of(paths: &[PathBuf]) -> Self {
-        Self { input: paths.to_vec(), from: None, las: LasArgs::default(), columns: Vec::new(), stats: None }
+        let (las, columns) = (LasArgs::default(), Vec::new());
+        Self { input: paths.to_vec(), from: None, las, columns, skip_missing: false, stats: None }
     }
 
     /// The files that are read.

@@ -203,6 +203,9 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
     if !args.columns.is_empty() && !is_las && !formats.contains(&Format::Text) {
         return Err(Failure::usage("--columns is for text, LAS, LAZ and EPT", "leave --columns out"));
     }
+    if args.skip_missing && !formats.contains(&Format::Text) {
+        return Err(Failure::usage("--skip-missing is for text", "leave --skip-missing out"));
+    }
     Ok(formats)
 }
 
@@ -222,6 +225,7 @@ pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
         .dimensions(args.las.attributes.clone())
         .dimension(dimension)
         .attributes(are_attributes_kept())
+        .skip_missing(args.skip_missing)
 }
 
 /// Reads the points of a command.

@@ -2,6 +2,7 @@
 //! do not tell are refused, never guessed at.
 
 use super::fields::Separator;
+use super::missing::MISSING;
 use crate::formats::wkt::is_geometry;
 
 /// Columns by number from 0.
@@ -47,9 +48,6 @@ const HEIGHTS: [&str; 14] = [
 
 /// Names of columns of well-known text.
 const GEOMETRIES: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"];
-
-/// Texts for a missing value: no names of columns.
-const MISSING: [&str; 8] = ["na", "n/a", "nan", "null", "none", "nil", "inf", "missing"];
 
 /// Words that say nothing about the axis.
 const FILLERS: [&str; 24] = [

@@ -7,6 +7,7 @@
 mod columns;
 mod fields;
 mod kept;
+mod missing;
 #[cfg(test)]
 mod tests;
 
@@ -15,6 +16,7 @@ use std::io::{self, Write};
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use self::kept::Kept;
+use self::missing::{Missing, is_missing};
 use super::lines::Lines;
 use super::shapes::{Heights, Shapes, without_geometry};
 use super::wkt;
@@ -101,6 +103,7 @@ fn table<'a>(
     }
     let mut lines = Lines::new(source);
     let mut table = Table::new(said, wanted, Kept::new(options));
+    table.skips_missing = options.skip_missing;
     let mut separator = None;
     let mut record = String::new();
     while let Some(line) = lines.next_whole()? {
@@ -166,6 +169,9 @@ struct Table<'a> {
     parts: usize,
     /// Rows whose geometry is empty.
     empty: usize,
+    /// Rows without coordinates are left out.
+    skips_missing: bool,
+    missing: Missing,
     /// How many points were given away.
     before: usize,
     columns: Option<Columns>,
@@ -193,6 +199,8 @@ impl<'a> Table<'a> {
             kept,
             parts: 0,
             empty: 0,
+            skips_missing: false,
+            missing: Missing::default(),
             before: 0,
             columns,
             width: 0,
@@ -295,12 +303,18 @@ impl<'a> Table<'a> {
         let mut point = [0.0; 3];
         let mut count = 0;
         let mut last_is_empty = false;
+        let mut lacks = false;
         let before = self.cloud.xy.len() + self.shapes.len();
         self.kept.begin();
         for (column, field) in separator.split(record).enumerate() {
             count += 1;
             last_is_empty = field.is_empty();
             match &self.columns {
+                Some(Columns::Numbers(numbers))
+                    if self.skips_missing && numbers.contains(&column) && is_missing(&field) =>
+                {
+                    lacks = true;
+                }
                 Some(Columns::Numbers(numbers)) => {
                     for (axis, _) in numbers.iter().enumerate().filter(|entry| *entry.1 == column) {
                         point[axis] = number(&field, separator).ok_or_else(|| {
@@ -319,12 +333,14 @@ impl<'a> Table<'a> {
         if count != self.width && !(last_is_empty && count == self.width + 1) {
             return Err(wrong(format!("{count} fields where the first line has {}", self.width)));
         }
-        if let Some(Columns::Numbers(_)) = self.columns {
+        if lacks {
+            self.missing.add(line);
+        } else if let Some(Columns::Numbers(_)) = self.columns {
             let [x, y, z] = point;
             self.cloud.push([x, y], z);
         }
         let points = self.cloud.xy.len() + self.shapes.len() - before;
-        self.empty += usize::from(points == 0);
+        self.empty += usize::from(points == 0 && !lacks);
         self.kept.points(points);
         Ok(())
     }
@@ -392,7 +408,7 @@ impl<'a> Table<'a> {
             Some((_, line)) if self.columns.is_none() => {
                 return Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() });
             }
-            Some((number, _)) if found < number => {
+            Some((number, _)) if found + self.missing.count < number => {
                 return Err(Error::Truncated(format!("after {found} of {number} points")));
             }
             _ => {}
@@ -401,6 +417,7 @@ impl<'a> Table<'a> {
             self.cloud.remarks.push(format!("all lines, {} of them, are remarks", self.left_out));
         }
         self.cloud.losses.extend(without_geometry(self.empty));
+        self.cloud.remarks.extend(self.missing.told());
         self.cloud.features = self.kept.features();
         Ok((self.cloud, self.shapes))
     }

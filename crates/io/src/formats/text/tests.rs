@@ -109,3 +109,24 @@ fn errors_name_the_line() {
         Err("line 1: there is no column \"3\" among 2 without names".to_owned())
     );
 }
+
+#[test]
+fn rows_without_coordinates_are_left_out_where_that_is_asked_for() {
+    let text = "name,x,y\na,1,2\nb,,5\nc,NA,6\nd,7,n/a\ne,3.5,-4\n";
+    let failed = parse(text, &[]).expect_err("a field is empty");
+    assert!(failed.contains("line 3"), "{failed}");
+    let options = ReadOptions::default().skip_missing(true).attributes(true);
+    let cloud = read(Box::new(Cursor::new(text)), &options).expect("the others are whole");
+    assert_eq!(cloud.xy, [[1.0, 2.0], [3.5, -4.0]]);
+    assert!(
+        cloud.remarks.iter().any(|told| told == "3 rows without coordinates left out: lines 3, 4, 5"),
+        "{:?}",
+        cloud.remarks
+    );
+    // What is no number and not missing is a fault still, and so is a row that is too short.
+    for text in ["x,y\n1,2\n3,zwei\n", "x,y\n1,2\n3\n"] {
+        assert!(read(Box::new(Cursor::new(text)), &options).is_err());
+    }
+    let heights = read(Box::new(Cursor::new("x,y,z\n1,2,3\n4,5,null\n")), &options.columns(["x", "y", "z"]));
+    assert_eq!(heights.expect("one row").z, Some(vec![3.0]));
+}
