@@ -237,3 +237,21 @@ test("the lines of Python run, and have the numbers of the program", async (t) =
     assert.equal(Number(stdout.trim().split("\n").at(-1).split(" ")[1]), corners, name);
   }
 });
+
+test("in a cell of degrees its own address is told", async (t) => {
+  const page = await open(t, {hash: "#sample=capitals&views=cells"});
+  await settled(page);
+  const {features} = JSON.parse((await save(page, "cells", "geojson")).bytes);
+  const box = await page.locator("#bench-picture").boundingBox();
+  const lons = features.flatMap(({geometry}) => geometry.coordinates[0].map(([x]) => x));
+  const lats = features.flatMap(({geometry}) => geometry.coordinates[0].map(([, y]) => y));
+  const [west, east, south, north] = [Math.min(...lons), Math.max(...lons), Math.min(...lats), Math.max(...lats)];
+  const aspect = Math.cos(((south + north) * Math.PI) / 360);
+  const scale = 0.94 * Math.min(box.width / ((east - west) * aspect), box.height / (north - south));
+  for (const {geometry, properties} of features.filter((_, k) => k % 5 === 0)) {
+    const ring = geometry.coordinates[0].slice(1);
+    const [x, y] = [0, 1].map((k) => ring.reduce((sum, corner) => sum + corner[k], 0) / ring.length);
+    await page.mouse.move(box.x + box.width / 2 + (x - (west + east) / 2) * aspect * scale, box.y + box.height / 2 - (y - (south + north) / 2) * scale);
+    await page.waitForFunction((name) => document.querySelector("#bench-tip").textContent.includes(`name: ${name}`), properties.name, {timeout: 5000});
+  }
+});

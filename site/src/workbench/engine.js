@@ -5,7 +5,7 @@ import {background} from "../background.js";
 import {load} from "../load.js";
 
 /** What the program told of a failure: its sentence, and what to do. */
-export class Failure extends Error {
+class Failure extends Error {
   constructor(errors) {
     const line = (start) => errors.find((line) => line.startsWith(start))?.slice(start.length);
     super(line("error: ") ?? errors.at(-1) ?? "the program gave no result");

@@ -56,8 +56,10 @@ const tasks = {
   /** The nearest point, and the triangle and the area at a place, as shares and as they came. */
   pick({x, y, reach, shown}) {
     if (!scene.points?.length) return {};
-    finder ??= new Delaunay(scene.points);
-    const i = finder.find(x, y);
+    // Nearness is that of the program, for which degrees are as wide as high.
+    const {aspect} = scene.frame;
+    finder ??= new Delaunay(aspect === 1 ? scene.points : scene.points.map((share, k) => (k % 2 ? share : share / aspect)));
+    const i = finder.find(x / aspect, y);
     const {points} = scene;
     const isNear = i >= 0 && Math.hypot(points[2 * i] - x, points[2 * i + 1] - y) <= reach;
     const found = {isNear};

@@ -6,7 +6,7 @@ import {wordsOf} from "./views.js";
 
 /** Files that the stage reads. Names of visitors' files do not begin with a dot. */
 export const STAGE = ".stage";
-export const STATS = ".stats.json";
+const STATS = ".stats.json";
 /** Bytes of a file that a preview looks at. */
 const HEAD = 1 << 14;
 

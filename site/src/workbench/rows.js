@@ -8,7 +8,7 @@ const PREVIEW = 5;
 export const isText = (name) => /\.(csv|tsv|txt|xyz|dat|pts)$/i.test(name);
 
 /** Text in UTF-8, or else in Windows' Western letters, and which of both. */
-export function decoded(bytes) {
+function decoded(bytes) {
   try {
     return {text: new TextDecoder("utf-8", {fatal: true}).decode(bytes), encoding: "utf-8-sig"};
   } catch {
@@ -19,7 +19,7 @@ export function decoded(bytes) {
 const isNumber = (cell) => cell !== "" && Number.isFinite(Number(cell.replace(",", ".")));
 
 /** What separates cells, by the first line that is no comment: the surest of those that are in it. */
-export function signOf(text) {
+function signOf(text) {
   const line = text.split(/\r\n|\r|\n/).find((line) => line.trim() && !/^\s*(#|\/\/)/.test(line)) ?? "";
   return [";", "\t", ","].find((sign) => line.replace(/"[^"]*"/g, "").includes(sign)) ?? " ";
 }

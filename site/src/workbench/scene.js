@@ -27,7 +27,7 @@ function range(values) {
 }
 
 /** What takes coordinates to shares: x to the right, y up, the larger extent is 1. */
-export function frameOf(xs, ys, isGeographic) {
+function frameOf(xs, ys, isGeographic) {
   const [[x0, x1], [y0, y1]] = [range(xs), range(ys)];
   // Half of an extent is finite where the whole is not; elsewhere halves would lose the last bit of the least floats.
   const part = Math.max(x1 - x0, y1 - y0) < Infinity ? 1 : 0.5;

@@ -15,7 +15,7 @@ export const empty = () => ({
 export const LONGEST_TEXT = 6000;
 
 /** The part of an address after the "#". */
-export function toHash({source, read, views, fill, dots}) {
+function toHash({source, read, views, fill, dots}) {
   if (source.kind === "none") return location.href.split("#")[0];
   const words = new URLSearchParams();
   const put = (key, value) => value !== "" && value !== undefined && words.set(key, value);

@@ -9,17 +9,20 @@ function angles(corners) {
   return Math.min(angle(a, b, c), angle(b, c, a), angle(c, a, b));
 }
 
-/** The area of a triangle in units of the coordinates. */
-function areaOf(corners, {extent, part, aspect}) {
-  const [[ax, ay], [bx, by], [cx, cy]] = corners;
-  return (Math.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2 / aspect) * (extent / part) ** 2;
+/** The area of a triangle of shares in units of the coordinates. */
+function areaOf([[ax, ay], [bx, by], [cx, cy]], {extent, part}) {
+  return (Math.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2) * (extent / part) ** 2;
 }
+
+/** What is told last is the last that was asked for: rows may come late. */
+let turn = 0;
 
 /** Shows what was found; without anything nothing. */
 export async function tellOf(section, loaded, found, pixel, isChosen) {
   const of = (name) => section.querySelector(`#bench-${name}`);
   const tip = of("tip");
   const lines = [];
+  const mine = ++turn;
   // In a cell its point is meant, however far away.
   const isCell = found?.area?.name === "cells";
   if (found?.point && (found.isNear || isCell)) {
@@ -27,10 +30,13 @@ export async function tellOf(section, loaded, found, pixel, isChosen) {
     lines.push(`point ${i}: ${place.map(short).join(", ")}${height === undefined ? "" : `, height ${short(height)}`}`);
     if (loaded?.names.length === 1) for (const [name, cell] of await loaded.row(i)) lines.push(`${name}: ${cell}`);
   } else if (found?.triangle) {
-    const {number, indices, corners} = found.triangle;
+    const {number, indices} = found.triangle;
+    // Degrees are as wide as they are high in the plane of the program.
+    const corners = found.triangle.corners.map(([x, y]) => [x / loaded.about.frame.aspect, y]);
     lines.push(`triangle ${number}: ${indices.join(", ")}`, `least angle ${angles(corners).toFixed(1)}°, area ${short(areaOf(corners, loaded.about.frame))}`);
   }
   if (found?.area?.name === "alpha" && !found.isNear) lines.push("inside of the alpha shape");
+  if (mine !== turn) return;
   tip.hidden = !lines.length;
   tip.textContent = lines.join("\n");
   if (pixel) {

@@ -4,7 +4,7 @@ import {listed} from "./reader.js";
 import {views} from "./views.js";
 
 /** A number and its noun. */
-export const counted = (number, noun) => `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
+const counted = (number, noun) => `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
 
 /** The parts of a line that the program told, without the time. */
 const parts = (told) => told.replace(/ \([\d.]+ s\)/, "").split(", ").filter(Boolean);
