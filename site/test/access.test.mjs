@@ -68,5 +68,5 @@ test("a file's districts by the keyboard alone", async (t) => {
   await tabTo("bench-save");
   const saved = page.waitForEvent("download");
   await page.keyboard.press("Enter");
-  assert.match((await saved).suggestedFilename(), /^cells\.geojson$/);
+  assert.match((await saved).suggestedFilename(), /^graph\.geojson$/);
 });
