@@ -12,20 +12,12 @@ import {brotliCompressSync, gzipSync} from "node:zlib";
 import {Delaunay as D3} from "d3-delaunay";
 import Theirs from "delaunator";
 import {Delaunator, Delaunay} from "delone";
+import {uniformNumbers} from "./uniform.mjs";
 
 const [runs = 5, ...counts] = process.argv.slice(2).map(Number);
 if (!counts.length) counts.push(100_000, 1_000_000);
 
-function uniform(count) {
-  let state = 12345;
-  const next = () => {
-    state ^= state << 13;
-    state ^= state >>> 17;
-    state ^= state << 5;
-    return (state >>> 0) / 2 ** 32;
-  };
-  return Float64Array.from({length: 2 * count}, next);
-}
+const uniform = (count) => Float64Array.from({length: 2 * count}, uniformNumbers());
 
 const polygons = (Class, points) => {
   const delaunay = new Class(points);

@@ -5,6 +5,7 @@
 
 import {cpus} from "node:os";
 import {fileURLToPath, pathToFileURL} from "node:url";
+import {uniformNumbers} from "./uniform.mjs";
 
 const ROUNDS = 41;
 const CHANGES_A_ROUND = 50;
@@ -13,20 +14,14 @@ const [count = "100000", ...folders] = process.argv.slice(2);
 if (!folders.length) folders.push(fileURLToPath(new URL("../../bindings/wasm", import.meta.url)));
 const packages = await Promise.all(folders.map((folder) => import(`${pathToFileURL(folder)}/js/full.js`)));
 
-let state = 12345;
-const next = () => {
-  state ^= state << 13;
-  state ^= state >>> 17;
-  state ^= state << 5;
-  return (state >>> 0) / 2 ** 32;
-};
+const next = uniformNumbers();
 const points = Float64Array.from({length: 2 * Number(count)}, next);
 const triangulations = packages.map(({Delaunay}) => new Delaunay(points));
 
 /** A function of two random numbers and of the number of the change, each of its own vertex or of one. */
 const changes = {
   "drag a vertex": (d, k, x, y) => d.move(7, 0.5 + 0.01 * x, 0.5 + 0.01 * y),
-  "move another one far": (d, k, x, y) => d.move(10_000 + k, x, y),
+  "move another one far": (d, k, x, y) => d.move((10_000 + k) % Number(count), x, y),
   insert: (d, k, x, y) => d.insert(x, y),
   remove: (d, k) => d.remove(20_000 + k),
   "move, and read triangles": (d, k, x, y) => (d.move(7, x, y), d.triangles),

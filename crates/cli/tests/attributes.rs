@@ -392,6 +392,14 @@ fn rows_without_coordinates_go_with_theirs() {
     assert!(text(&output.stderr).contains("2 rows without coordinates left out: lines 3, 5"), "{output:?}");
     let names: Vec<_> = properties(&place, "c.geojson").iter().map(|row| row["name"].clone()).collect();
     assert_eq!(names, ["A", "C", "E"]);
+    // A column of numbers has those of the rows that stay.
+    place.file("w.csv", "x,y,w\n0,0,1\n,,2\n4,0,1\nNA,nan,x\n0,4,9\n");
+    let output = place.run("voronoi w.csv --skip-missing --weights w -o w.geojson");
+    assert!(output.status.success(), "{output:?}");
+    place.file("v.csv", "x,y,w\n0,0,1\n4,0,1\n0,4,9\n");
+    place.succeed("-q voronoi v.csv --weights w -o v.geojson");
+    assert_eq!(place.read("w.geojson"), place.read("v.geojson"));
+    place.fail("voronoi w.csv --skip-missing --weights nothing -o n.geojson", 1, "nothing");
     place.file("p.ply", "ply\n");
     place.fail("info p.ply --skip-missing", 2, "--skip-missing is for text");
 }

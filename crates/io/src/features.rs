@@ -287,6 +287,14 @@ impl Table {
         self.columns.push(column as u32);
     }
 
+    /// Takes the last row back.
+    pub(crate) fn take_back(&mut self) {
+        let begin = self.begins.pop().unwrap_or_default();
+        self.ends.truncate(begin);
+        self.columns.truncate(begin);
+        self.text.truncate(self.ends.last().copied().unwrap_or_default());
+    }
+
     /// Makes columns of numbers and texts columns of texts: where all values come as texts, one that is no number tells that none is.
     pub(crate) fn unify(&mut self) {
         let is_text: Vec<bool> = self.types().iter().map(|&own| own == ColumnType::Text).collect();
@@ -396,14 +404,8 @@ pub(crate) fn is_infinite(cell: &str) -> bool {
 
 /// A name with the least number from 2 after it that nothing has.
 pub(crate) fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
-    let mut number = 2;
-    loop {
-        let own = format!("{name}_{number}");
-        if !is_taken(&own) {
-            return own;
-        }
-        number += 1;
-    }
+    let mut own = (2_u64..).map(|number| format!("{name}_{number}"));
+    own.find(|own| !is_taken(own)).unwrap_or_default()
 }
 
 /// Whether a text is a number by the grammar of JSON.

@@ -20,7 +20,7 @@ const tasks = {
     forget();
     scene.begin(bytes ? ply(bytes) : {triangles: new Uint32Array(0)}, isGeographic);
     const {heights} = scene;
-    return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, box: scene.box, heights};
+    return {points: scene.x.length, triangles: scene.get("triangles").triangles.length / 3, frame: scene.frame, box: scene.frame.box, heights};
   },
 
   /** Takes the output of a view. */

@@ -1,10 +1,9 @@
 // Layers in shares of the extent of the points, and their picture for a view. Shares can be multiplied whatever the coordinates are.
 
 import {Coverage, parts} from "../coverage.js";
+import {frameOf, sharesOf} from "../frame.js";
 import {Areas, fillTriangle, grays, ramp} from "./fill.js";
 
-/** Degrees of longitude are drawn as wide as they are in the middle of what is shown. */
-const aspectOf = (isGeographic, south, north) => (isGeographic ? Math.max(Math.cos(((south + north) * Math.PI) / 360), 0.1) : 1);
 /** Meters of a degree of latitude, for shades of heights over degrees. */
 const METERS_OF_DEGREE = 111_195;
 /** From so many pixels of the extent on, the places of pixels are double floats. */
@@ -23,28 +22,17 @@ function range(values) {
     if (values[i] < low) low = values[i];
     if (values[i] > high) high = values[i];
   }
-  return low <= high ? [low, high] : [0, 0];
+  return [low, high];
 }
 
-/** What takes coordinates to shares: x to the right, y up, the larger extent is 1. */
-function frameOf(xs, ys, isGeographic) {
-  const [[x0, x1], [y0, y1]] = [range(xs), range(ys)];
-  // Half of an extent is finite where the whole is not; elsewhere halves would lose the last bit of the least floats.
-  const part = Math.max(x1 - x0, y1 - y0) < Infinity ? 1 : 0.5;
-  const aspect = aspectOf(isGeographic, y0, y1);
-  const [wide, high] = [(x1 * part - x0 * part) * aspect, y1 * part - y0 * part];
-  const extent = Math.max(wide, high) || 1;
-  return {x0, y0, part, aspect, extent, size: [wide / extent, high / extent], isGeographic};
-}
-
-/** Shares of coordinates in a row. */
-function shared(coords, {x0, y0, part, aspect, extent}) {
-  const shares = new Float64Array(coords.length);
-  for (let i = 0; i < coords.length; i += 2) {
-    shares[i] = ((coords[i] * part - x0 * part) * aspect) / extent;
-    shares[i + 1] = (coords[i + 1] * part - y0 * part) / extent;
+/** Columns of coordinates in a row. */
+function inRow(x, y) {
+  const row = new Float64Array(2 * x.length);
+  for (let i = 0; i < x.length; i++) {
+    row[2 * i] = x[i];
+    row[2 * i + 1] = y[i];
   }
-  return shares;
+  return row;
 }
 
 /**
@@ -75,31 +63,20 @@ const drawers = {mesh: "drawMesh", edges: "drawEdges", paths: "drawPaths"};
 
 export class Scene {
   #layers = new Map();
-  frame = frameOf([], [], false);
+  frame = frameOf([]);
 
   /** Takes the points that all is about: a mesh of them. */
   begin({x = new Float64Array(0), y = x, z, triangles}, isGeographic) {
     this.#layers.clear();
     [this.names, this.places] = [undefined, undefined];
-    this.frame = frameOf(x, y, isGeographic);
-    const [[x0, x1], [y0, y1]] = [range(x), range(y)];
-    this.box = [x0, y0, x1, y1];
+    const row = inRow(x, y);
+    this.frame = frameOf(row, isGeographic);
     const heights = range(z ?? []);
     // Points of the plane come with heights of zero.
     this.heights = heights[0] < heights[1] ? heights : undefined;
     [this.x, this.y, this.z] = [x, y, this.heights && z];
-    this.points = this.#shares(x, y);
+    this.points = sharesOf(row, this.frame, row);
     this.add("triangles", {kind: "mesh", points: this.points, z: this.z, triangles});
-  }
-
-  #shares(x, y) {
-    const {x0, y0, part, aspect, extent} = this.frame;
-    const shares = new Float64Array(2 * x.length);
-    for (let i = 0; i < x.length; i++) {
-      shares[2 * i] = ((x[i] * part - x0 * part) * aspect) / extent;
-      shares[2 * i + 1] = (y[i] * part - y0 * part) / extent;
-    }
-    return shares;
   }
 
   add(name, layer) {
@@ -107,12 +84,12 @@ export class Scene {
   }
 
   addMesh(name, {x = new Float64Array(0), y = x, z, triangles}) {
-    this.add(name, {kind: "mesh", points: this.#shares(x, y), z: this.heights && z, triangles});
+    this.add(name, {kind: "mesh", points: sharesOf(inRow(x, y), this.frame), z: this.heights && z, triangles});
   }
 
   /** Paths, as outputs.js gives them; `isFilled` if they are borders of areas. */
   addPaths(name, {coords, ...paths}, isFilled) {
-    this.add(name, {kind: "paths", points: shared(coords, this.frame), isFilled, ...paths});
+    this.add(name, {kind: "paths", points: sharesOf(coords, this.frame), isFilled, ...paths});
   }
 
   /** Edges, or corners of a ring, by the indices of points. */

@@ -361,8 +361,9 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
     let mut all = Vec::new();
     for path in &args.input {
         let format = format(path, args.from, "--from")?;
-        if format != Format::Text {
-            all.extend(attribute(path, format, name, quiet)?);
+        // Of rows that are left out the others are told by what they hold.
+        if format != Format::Text || args.skip_missing {
+            all.extend(attribute(args, path, format, name, quiet)?);
             continue;
         }
         let options = ReadOptions::default().columns([name; 2]);
@@ -377,9 +378,16 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
 }
 
 /// Reads an attribute of all points, which must be a number.
-fn attribute(path: &Path, format: Format, name: &str, quiet: bool) -> Result<Vec<f64>, Failure> {
+fn attribute(
+    args: &InputArgs,
+    path: &Path,
+    format: Format,
+    name: &str,
+    quiet: bool,
+) -> Result<Vec<f64>, Failure> {
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let options = ReadOptions::default().attributes(true);
+    let options = ReadOptions::default().attributes(true).skip_missing(args.skip_missing);
+    let options = if format == Format::Text { options.columns(args.columns.clone()) } else { options };
     let cloud =
         delone_io::read_points(source, format, &options).map_err(|error| wrong(path, format, &error))?;
     let table = &cloud.features.table;
@@ -388,12 +396,16 @@ fn attribute(path: &Path, format: Format, name: &str, quiet: bool) -> Result<Vec
     let names = || table.names().join(", ");
     let column = table.names().iter().position(|known| known == name);
     let column = column.ok_or_else(|| failed(format!("no column is called so, but: {}", names())))?;
-    let number = |row| match table.value(row, column) {
-        Value::Number(number) => Ok(number),
-        Value::Integer(whole) => Ok(whole as f64),
-        _ => Err(failed(format!("in this column point {row} has no number"))),
+    let number = |point| {
+        let value = cloud.features.row(point).map(|row| table.value(row, column));
+        let number = match value {
+            Some(Value::Number(number)) => Some(number),
+            Some(Value::Integer(whole)) => Some(whole as f64),
+            _ => None,
+        };
+        number.ok_or_else(|| failed(format!("in this column point {point} has no number")))
     };
-    (0..table.len()).map(number).collect()
+    (0..cloud.xy.len()).map(number).collect()
 }
 
 /// The input of a command, and the dimensions of LAS files that are attributes of its queries: those that are asked for, where these are such

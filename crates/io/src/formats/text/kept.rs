@@ -60,6 +60,13 @@ impl Kept {
         }
     }
 
+    /// The row is left out, and says nothing of its columns.
+    pub(super) fn take_back(&mut self) {
+        if self.keeps {
+            self.table.take_back();
+        }
+    }
+
     /// The row has so many points.
     pub(super) fn points(&mut self, count: usize) {
         if let Some(row) = self.table.len().checked_sub(1) {

@@ -335,6 +335,7 @@ impl<'a> Table<'a> {
         }
         if lacks {
             self.missing.add(line);
+            self.kept.take_back();
         } else if let Some(Columns::Numbers(_)) = self.columns {
             let [x, y, z] = point;
             self.cloud.push([x, y], z);
