@@ -205,6 +205,13 @@ test("links that are wrong or hostile are a sentence at most", async (t) => {
   }
 });
 
+test("more points than the memory of a page holds are refused by a sentence, and the page goes on", async (t) => {
+  const page = await open(t, {hash: "#set=uniform&n=400000000&views=triangles"});
+  assert.match(await settled(page), /more than fits into the memory of a page/);
+  await page.click("[data-sample=capitals]");
+  assert.match(await settled(page), /^capitals\.csv: 35 points/);
+});
+
 test("the lines of Python run, and have the numbers of the program", async (t) => {
   const {PYTHON: python, DELONE: program} = process.env;
   if (!python || !program) return t.skip("PYTHON and DELONE name no programs");

@@ -80,15 +80,15 @@ export async function run(module, args, files, tell = () => {}) {
   root.dir = new Folder(contents);
   const hear = (lines) => ConsoleStdout.lineBuffered((line) => (lines.push(line), tell(line)));
   const wasi = new WASI(["delone", ...args], [], [new ConsoleStdout(() => {}), hear(prints), hear(errors), root], {debug: false});
-  const instance = await WebAssembly.instantiate(module, {wasi_snapshot_preview1: wasi.wasiImport});
   let status;
   try {
+    const instance = await WebAssembly.instantiate(module, {wasi_snapshot_preview1: wasi.wasiImport});
     status = wasi.start(instance);
   } catch (error) {
     // The program aborts where memory ends.
     if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
     status = 1;
-    const isMemory = errors.some((line) => /memory|allocation/.test(line)) || error instanceof RangeError;
+    const isMemory = errors.some((line) => /memory|allocation|capacity overflow/.test(line)) || error instanceof RangeError;
     errors.push(isMemory ? "error: this is more than fits into the memory of a page" : `error: the program stopped: ${error.message}`);
   }
   const written = {};
